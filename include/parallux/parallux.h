@@ -1,0 +1,9 @@
+#pragma once
+
+/// \file Everything a user of the library needs, in the order of the flow.
+#include "parallux/error.h"
+#include "parallux/patches.h"
+#include "parallux/picture.h"
+#include "parallux/scene.h"
+#include "parallux/solve.h"
+#include "parallux/tables.h"

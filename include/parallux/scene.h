@@ -1,0 +1,157 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "parallux/spectrum.h"
+
+// Stage 1: what is there. Metres, W/m² (or lm/m² when the file is photometric), linear Rec. 709.
+
+namespace parallux {
+
+/// A picture in linear values, row 0 at the top, `width * height` texels.
+/// Lookup repeats in both directions (glTF's default wrap), v grows downwards (glTF's origin).
+struct Texture {
+    std::string name;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<glm::vec3> texels;
+};
+
+/// What a surface does with light. Values are per band; textures and vertex colours multiply them
+/// (a texture's or a colour's three channels apply to scenes of three bands only).
+struct Material {
+    std::string name;
+    Spectrum reflectance;                      ///< ρ, 0 ≤ ρ < 1
+    Spectrum emission;                         ///< E = π L_e, W/m² leaving each side that emits
+    std::uint32_t reflectance_texture = none;  ///< index into Scene::textures
+    std::uint32_t emission_texture = none;     ///< index into Scene::textures
+    std::uint32_t reflectance_uv = 0;          ///< which texture coordinate set: 0 or 1
+    std::uint32_t emission_uv = 0;
+    bool two_sided = false;  ///< two patches a cell, one a side; else the back is inert
+};
+
+enum class Shape : std::uint8_t { parallelogram, triangle };
+
+/// A planar piece of the scene with a (u, v) grid: point(u, v) = p0 + u (p1 - p0) + v (p_last -
+/// p0), 0 ≤ u, v ≤ 1, and u + v ≤ 1 on a triangle. Corners run counter-clockwise seen from the
+/// front: triangle p0 p1 p2, parallelogram p0 p1 p2 p3 with p2 = p1 + p3 - p0 up to rounding.
+struct Surface {
+    std::array<std::uint32_t, 4> corner{};  ///< indices into Scene::positions; [3] = none: triangle
+    std::uint32_t material = 0;             ///< index into Scene::materials
+    std::uint32_t object = 0;               ///< index into Scene::objects
+    std::uint32_t grid_u = 0;               ///< cells along u and v; 0: from the wanted patch size
+    std::uint32_t grid_v = 0;
+
+    Shape shape() const { return corner[3] == none ? Shape::triangle : Shape::parallelogram; }
+    /// The corner at (u, v) = (0, 1).
+    std::uint32_t corner_v() const { return corner[3] == none ? corner[2] : corner[3]; }
+};
+
+/// Texture coordinates and colour over one surface, affine in (u, v): the values at p0 and at the
+/// ends of u and v.
+struct SurfaceAttributes {
+    std::array<glm::vec2, 3> uv0{};
+    std::array<glm::vec2, 3> uv1{};
+    std::array<glm::vec3, 3> colour{glm::vec3(1), glm::vec3(1), glm::vec3(1)};
+    bool operator==(const SurfaceAttributes&) const = default;
+};
+
+/// A light without area.
+struct Light {
+    enum class Kind : std::uint8_t { point, spot, directional };
+    Kind kind = Kind::point;
+    std::string name;
+    glm::dvec3 position{0};
+    glm::dvec3 direction{0, 0, -1};  ///< unit; where the light goes
+    Spectrum intensity;              ///< W/sr; for a directional light W/m² across its direction
+    double inner_cone = 0;           ///< spot: full strength within this angle, radians
+    double outer_cone = pi / 4;      ///< spot: nothing beyond it
+    double range = 0;                ///< 0: no limit (glTF's range, a hard end here)
+};
+
+/// Light from outside the scene; radiance per band, W/(m² sr).
+struct Sky {
+    enum class Kind : std::uint8_t { dark, uniform, gradient, image };
+    Kind kind = Kind::dark;
+    glm::dvec3 up{0, 0, 1};  ///< unit
+    Spectrum zenith;         ///< uniform: the radiance everywhere above and below
+    Spectrum horizon;  ///< gradient: radiance at the horizon, linear in sin(elevation) to zenith
+    Spectrum ground;   ///< gradient: radiance below the horizon
+    Texture image;     ///< image: latitude-longitude, top row at `up`
+    float scale = 1;   ///< image: multiplies its texels
+    glm::dvec3 north{0, 1,
+                     0};  ///< image: the direction of its middle column, made orthogonal to up
+
+    /// Radiance seen when looking along unit `direction` out of the scene.
+    Spectrum radiance(const glm::dvec3& direction) const;
+};
+
+struct Camera {
+    std::string name;
+    glm::dvec3 position{0};
+    glm::dvec3 forward{0, 0, -1};    ///< unit
+    glm::dvec3 up{0, 1, 0};          ///< unit, orthogonal to forward
+    double vertical_fov = 0.8;       ///< radians
+    double aspect = 0;               ///< width / height; 0: the picture's own
+    double orthographic_height = 0;  ///< > 0: parallel projection of this height in scene units
+};
+
+struct Scene {
+    std::filesystem::path file;
+    std::uint32_t bands = 3;
+    std::vector<glm::dvec3> positions;  ///< welded: equal positions have one index
+    std::vector<Surface> surfaces;
+    std::vector<SurfaceAttributes> attributes;  ///< empty, or one a surface
+    std::vector<Material> materials;
+    std::vector<std::string> objects;
+    std::vector<Texture> textures;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    Sky sky;
+    std::uint64_t triangles = 0;  ///< as read, zero-area ones included
+    std::uint64_t zero_area = 0;  ///< dropped
+    double line_sphere = 0;       ///< radius for independent lines; 0: the scene's own bound
+    std::vector<std::string> warnings;
+};
+
+/// How a mesh format that says nothing about a thing is to be read.
+struct LoadSettings {
+    Spectrum reflectance = Spectrum::constant(0.5f);  ///< of faces without a material
+    double scale = 1;                                 ///< multiplies every length of the file
+    bool keep_triangles = false;                      ///< do not join triangle pairs
+};
+
+/// Reads a glTF (.gltf, .glb), OBJ, STL or Parallux (.json) scene; the content decides where the
+/// ending is unknown. Every index, span and number is checked before use; throws Fault::input
+/// naming file and element. Nothing outside the scene's folder is read. Linear in the file.
+Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings = {});
+
+/// point(u, v) of a surface.
+glm::dvec3 surface_point(const Scene& scene, const Surface& surface, double u, double v);
+/// Unit normal of the front, (p1 - p0) × (p_last - p0).
+glm::dvec3 surface_normal(const Scene& scene, const Surface& surface);
+/// Area in square metres.
+double surface_area(const Scene& scene, const Surface& surface);
+/// Reflectance and emission at one point: factor × texture × vertex colour. Reflectance is
+/// clamped to [0, 0.999].
+Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v);
+Spectrum surface_emission(const Scene& scene, std::uint32_t surface, double u, double v);
+
+struct Bounds {
+    glm::dvec3 low{0};
+    glm::dvec3 high{0};
+};
+/// Of all corners in use; both zero for an empty scene.
+Bounds scene_bounds(const Scene& scene);
+/// True when every edge is shared by an even number of faces: each line then meets an even number
+/// of surfaces.
+bool is_closed(const Scene& scene);
+
+}  // namespace parallux

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "parallux/patches.h"
+#include "parallux/scene.h"
+
+// Stage 6: the method. solve() is first shot, batches of lines, leftover, result.
+
+namespace parallux {
+
+enum class Method { bundles, lines };
+enum class Direction { bidirectional, oriented };
+enum class FirstShot { none, rays };
+enum class DirectionSet { lattice, random };
+
+struct SolveSettings {
+    Method method = Method::bundles;
+    Direction direction = Direction::bidirectional;
+    FirstShot first_shot = FirstShot::rays;
+    std::uint64_t first_shot_rays = 0;  ///< 0: grows with the lines
+    std::uint64_t bundles = 0;          ///< 0: from `lines`, else 1024
+    std::uint64_t lines = 0;            ///< wanted total; 0: from `bundles`
+    double line_spacing = 0;            ///< δ, metres; 0: from lines_per_patch
+    double lines_per_patch = 4;         ///< c: δ² = mean patch area / c
+    std::uint32_t batch = 0;            ///< bundles from one snapshot; 0: min(16, bundles / 64)
+    DirectionSet directions = DirectionSet::lattice;
+    std::uint64_t seed = 1;
+    unsigned threads = 0;          ///< 0: all
+    std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
+    double time_limit = 0;         ///< seconds; 0: none. A stopped run is marked partial.
+    double sphere_radius = 0;      ///< of independent lines; 0: the scene's
+};
+
+/// Where a solve stands; given to the callback now and then, always from the calling thread.
+struct Progress {
+    const char* stage = "";   ///< "first shot", "bundles", "lines"
+    double done = 0;          ///< 0 … 1 of the stage
+    std::uint64_t lines = 0;  ///< so far
+    double seconds = 0;       ///< since the stage began
+};
+
+/// Returns false to stop after the current batch; the result is then marked partial.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+/// Energy per band in integer quanta: emitted = absorbed + escaped + unshot + residual, and the
+/// residual is 0.
+struct Balance {
+    double watts_per_quantum = 0;
+    std::vector<std::int64_t> emitted, absorbed, escaped, unshot, residual;
+};
+
+struct LineCounts {
+    std::uint64_t lines = 0;      ///< cast
+    std::uint64_t nonempty = 0;   ///< that met something
+    std::uint64_t hits = 0;       ///< crossings of surfaces
+    std::uint64_t transfers = 0;  ///< pairs that exchanged
+    std::uint64_t odd = 0;        ///< lists of odd length
+    std::uint64_t met_backs = 0;  ///< transfers that ended at the back of a one-sided patch
+    std::uint64_t leaks = 0;      ///< closed scenes: odd; others 0
+};
+
+struct Seconds {
+    double load = 0, patches = 0, first_shot = 0, global = 0, gather = 0, output = 0, total = 0;
+};
+
+/// Everything a solve returns. Arrays per band lie together: radiosity[patch * bands + band].
+struct Solution {
+    std::uint32_t bands = 0;
+    std::vector<float> radiosity;          ///< B, W/m²
+    std::vector<float> irradiance;         ///< H, W/m²
+    std::vector<float> stderror;           ///< of B; empty when not estimated
+    std::vector<std::uint64_t> crossings;  ///< lines that left each patch
+    std::uint64_t hash = 0;                ///< over radiosity and irradiance alone
+    Balance energy;
+    LineCounts counts;
+    Seconds seconds;
+    std::uint64_t bundles = 0;  ///< done
+    double line_spacing = 0;
+    std::uint32_t batch = 0;
+    unsigned threads = 0;
+    std::uint64_t first_shot_rays = 0;
+    bool partial = false;
+    std::vector<std::string> warnings;
+};
+
+/// Solves H = F B, B = E + ρ H. Equal scene, patches and settings give equal bits on any number of
+/// threads. Storage is linear in the patches. Throws Fault::memory before taking more than
+/// max_memory, Fault::usage for settings that contradict each other.
+Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& settings,
+               const ProgressCallback& progress = {});
+
+/// Bytes that solve() will take at its peak, state and deltas.
+std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
+                               const SolveSettings& settings);
+
+}  // namespace parallux

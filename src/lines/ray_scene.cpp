@@ -1,0 +1,216 @@
+#include "lines/ray_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+#include <glm/geometric.hpp>
+
+#include "parallux/error.h"
+
+namespace parallux {
+
+namespace {
+
+// Embree's advice: denormals off in every thread that traces. Restored on leaving, so that the
+// caller's arithmetic keeps its meaning.
+class DenormalsOff {
+public:
+    DenormalsOff() : saved_(_mm_getcsr()) {
+        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+    }
+    ~DenormalsOff() { _mm_setcsr(saved_); }
+
+private:
+    unsigned saved_;
+};
+
+// A query's own data behind Embree's context.
+struct Query {
+    RTCIntersectContext context;
+    const std::vector<std::uint32_t>* surface_of[2];
+    std::uint32_t skip_a = none, skip_b = none;
+    std::vector<SurfaceHit>* hits = nullptr;
+};
+
+SurfaceHit to_hit(const Query& query, unsigned geometry, unsigned primitive, float u, float v,
+                  float t, float along_normal) {
+    SurfaceHit hit;
+    hit.surface = (*query.surface_of[geometry])[primitive];
+    hit.u = u;
+    hit.v = v;
+    hit.t = t;
+    hit.back = along_normal > 0;
+    return hit;
+}
+
+// Leaves out the surfaces that the query skips, and gathers all others where a list is wanted.
+void filter(const RTCFilterFunctionNArguments* arguments) {
+    auto* query = reinterpret_cast<Query*>(arguments->context);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] != -1)
+            continue;
+        unsigned geometry = RTCHitN_geomID(arguments->hit, arguments->N, i);
+        unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, i);
+        std::uint32_t surface = (*query->surface_of[geometry])[primitive];
+        if (surface == query->skip_a || surface == query->skip_b) {
+            arguments->valid[i] = 0;
+        } else if (query->hits) {
+            unsigned n = arguments->N;
+            float along = RTCHitN_Ng_x(arguments->hit, n, i) * RTCRayN_dir_x(arguments->ray, n, i) +
+                          RTCHitN_Ng_y(arguments->hit, n, i) * RTCRayN_dir_y(arguments->ray, n, i) +
+                          RTCHitN_Ng_z(arguments->hit, n, i) * RTCRayN_dir_z(arguments->ray, n, i);
+            query->hits->push_back(
+                to_hit(*query, geometry, primitive, RTCHitN_u(arguments->hit, n, i),
+                       RTCHitN_v(arguments->hit, n, i), RTCRayN_tfar(arguments->ray, n, i), along));
+            arguments->valid[i] = 0;
+        }
+    }
+}
+
+}  // namespace
+
+struct RayScene::Data {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    glm::dvec3 centre{0};
+    std::vector<std::uint32_t> surface_of[2];  // geometry 0: triangles, 1: quads
+
+    ~Data() {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+
+    void add(const Scene& source, unsigned geometry_id) {
+        std::vector<std::uint32_t>& members = surface_of[geometry_id];
+        bool quads = geometry_id == 1;
+        std::vector<unsigned> corners;
+        for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
+            const Surface& surface = source.surfaces[s];
+            if ((surface.shape() == Shape::parallelogram) != quads)
+                continue;
+            members.push_back(s);
+            corners.insert(corners.end(), surface.corner.begin(),
+                           surface.corner.begin() + (quads ? 4 : 3));
+        }
+        if (members.empty())
+            return;
+        RTCGeometry geometry =
+            rtcNewGeometry(device, quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    3 * sizeof(float), source.positions.size()));
+        auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, quads ? RTC_FORMAT_UINT4 : RTC_FORMAT_UINT3,
+            (quads ? 4 : 3) * sizeof(unsigned), members.size()));
+        if (!vertices || !indices)
+            throw Error(Fault::memory, "no memory for the ray tracer's geometry");
+        for (std::size_t p = 0; p < source.positions.size(); ++p)
+            for (int axis = 0; axis < 3; ++axis)
+                vertices[3 * p + axis] =
+                    static_cast<float>(source.positions[p][axis] - centre[axis]);
+        std::copy(corners.begin(), corners.end(), indices);
+        rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+        rtcSetGeometryIntersectFilterFunction(geometry, filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, filter);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, geometry_id);
+        rtcReleaseGeometry(geometry);
+    }
+
+    Query query() const {
+        Query q;
+        rtcInitIntersectContext(&q.context);
+        q.surface_of[0] = &surface_of[0];
+        q.surface_of[1] = &surface_of[1];
+        return q;
+    }
+
+    RTCRay ray(const glm::dvec3& origin, const glm::dvec3& direction, double far) const {
+        glm::dvec3 local = origin - centre;
+        RTCRay r{};
+        r.org_x = static_cast<float>(local.x);
+        r.org_y = static_cast<float>(local.y);
+        r.org_z = static_cast<float>(local.z);
+        r.dir_x = static_cast<float>(direction.x);
+        r.dir_y = static_cast<float>(direction.y);
+        r.dir_z = static_cast<float>(direction.z);
+        r.tnear = 0;
+        r.tfar = static_cast<float>(std::min(far, double(std::numeric_limits<float>::max())));
+        r.mask = ~0u;
+        return r;
+    }
+};
+
+RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_unique<Data>()) {
+    std::string config = threads ? "threads=" + std::to_string(threads) : "";
+    data_->device = rtcNewDevice(config.c_str());
+    if (!data_->device)
+        throw Error(Fault::internal, "Embree cannot start on this machine");
+    Bounds bounds = scene_bounds(scene);
+    data_->centre = 0.5 * (bounds.low + bounds.high);
+    data_->scene = rtcNewScene(data_->device);
+    rtcSetSceneFlags(data_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(data_->scene, RTC_BUILD_QUALITY_MEDIUM);
+    data_->add(scene, 0);
+    data_->add(scene, 1);
+    rtcCommitScene(data_->scene);
+    if (RTCError error = rtcGetDeviceError(data_->device); error != RTC_ERROR_NONE)
+        throw Error(error == RTC_ERROR_OUT_OF_MEMORY ? Fault::memory : Fault::internal,
+                    "Embree cannot build the scene (error " + std::to_string(error) + ")");
+}
+
+RayScene::~RayScene() = default;
+
+SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& direction, double far,
+                             std::uint32_t skip) const {
+    DenormalsOff guard;
+    Query query = data_->query();
+    query.skip_a = skip;
+    RTCRayHit r{};
+    r.ray = data_->ray(origin, direction, far);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(data_->scene, &query.context, &r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return {};
+    float along = r.hit.Ng_x * r.ray.dir_x + r.hit.Ng_y * r.ray.dir_y + r.hit.Ng_z * r.ray.dir_z;
+    return to_hit(query, r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, along);
+}
+
+bool RayScene::blocked(const glm::dvec3& a, const glm::dvec3& b, std::uint32_t skip_a,
+                       std::uint32_t skip_b) const {
+    DenormalsOff guard;
+    Query query = data_->query();
+    query.skip_a = skip_a;
+    query.skip_b = skip_b;
+    RTCRay r = data_->ray(a, b - a, 1);
+    rtcOccluded1(data_->scene, &query.context, &r);
+    return r.tfar < 0;
+}
+
+void RayScene::all(const glm::dvec3& origin, const glm::dvec3& direction, double far,
+                   std::vector<SurfaceHit>& hits) const {
+    DenormalsOff guard;
+    hits.clear();
+    Query query = data_->query();
+    query.hits = &hits;
+    RTCRayHit r{};
+    r.ray = data_->ray(origin, direction, far);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(data_->scene, &query.context, &r);
+    std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
+        return a.t != b.t ? a.t < b.t : a.surface < b.surface;
+    });
+    hits.erase(std::unique(
+                   hits.begin(), hits.end(),
+                   [](const SurfaceHit& a, const SurfaceHit& b) { return a.surface == b.surface; }),
+               hits.end());
+}
+
+}  // namespace parallux

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace parallux {
+
+/// The one way to write a file: bytes go to a temporary in the same folder; commit() checks every
+/// write, fsyncs, closes, renames over the target and fsyncs the folder. Destroyed without
+/// commit(), the temporary is gone and an older file stays as it was. Throws Fault::output naming
+/// the file and the system's reason.
+class OutputFile {
+public:
+    explicit OutputFile(std::filesystem::path target);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void write(std::string_view bytes);
+    void commit();
+    /// Where the bytes go until commit(), for libraries that want to open a path themselves.
+    const std::filesystem::path& temporary() const { return temporary_; }
+
+private:
+    std::filesystem::path target_, temporary_;
+    int descriptor_ = -1;
+};
+
+/// Throws Fault::output unless a file could be written here now. Leaves nothing behind.
+void check_writable(const std::filesystem::path& target);
+
+}  // namespace parallux
