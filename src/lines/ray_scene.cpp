@@ -162,7 +162,8 @@ RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_uniqu
     data_->add(scene, 0);
     data_->add(scene, 1);
     // Built inside an arena of so many threads; Embree's own setting would bind the whole process.
-    tbb::task_arena arena(static_cast<int>(thread_count(threads)));
+    unsigned workers = std::min(thread_count(threads), thread_count(0));
+    tbb::task_arena arena(static_cast<int>(workers));
     arena.execute([&] { rtcCommitScene(data_->scene); });
     if (RTCError error = rtcGetDeviceError(data_->device); error != RTC_ERROR_NONE)
         throw Error(error == RTC_ERROR_OUT_OF_MEMORY ? Fault::memory : Fault::internal,
