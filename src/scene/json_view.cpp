@@ -21,7 +21,9 @@ Json parse_json(const std::filesystem::path& file, std::string_view text) {
     try {
         return Json::parse(text, shallow);
     } catch (const Json::exception& error) {
-        input_error(file, "", std::string("not valid JSON: ") + error.what());
+        std::string_view what = error.what();  // opens with the exception's own name in brackets
+        what.remove_prefix(std::min(what.find("] ") + 2, what.size()));
+        input_error(file, "", "not valid JSON: " + std::string(what));
     }
 }
 

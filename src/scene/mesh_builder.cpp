@@ -13,11 +13,20 @@ namespace parallux {
 namespace {
 
 // Relative to the longest edge, so that a scene in millimetres loses the same faces as one in
-// kilometres. Twelve digits leave a sliver of aspect 10⁶ alone, float noise in a line not.
-bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+// kilometres. Twelve digits leave a sliver of aspect 10⁶ alone, rounding noise in a line not.
+bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double least = 1e-12) {
     glm::dvec3 ab = b - a, ac = c - a, bc = c - b;
     double longest = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
-    return glm::length(glm::cross(ab, ac)) > 1e-12 * longest;
+    return glm::length(glm::cross(ab, ac)) > least * longest;
+}
+
+// Mesh files hold floats, and a sphere's pole made of sines is then a ring of needles some 10⁻⁸
+// wide: narrower than floats resolve where they stand, so no face. Width is judged beside length,
+// because far from the origin rounding alone flattens honest faces, too.
+bool is_face(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    auto rounded = [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)); };
+    return has_area(a, b, c, 2.4e-7) ||
+           (has_area(a, b, c) && has_area(rounded(a), rounded(b), rounded(c), 0));
 }
 
 template <class T>
@@ -134,7 +143,7 @@ std::vector<MeshTriangle> SceneBuilder::keep_triangles_with_area(const Mesh& mes
         MeshTriangle t;
         std::copy_n(mesh.indices.begin() + static_cast<std::ptrdiff_t>(i), 3, t.vertex.begin());
         auto [a, b, c] = pick(mesh.positions, t.vertex);
-        if (!has_area(a, b, c)) {
+        if (!is_face(a, b, c)) {
             ++scene_.zero_area;
             continue;
         }
