@@ -47,12 +47,14 @@ double exact_depth(const Projection& projection, const Scene& scene, const glm::
     return depth(0) + of_b * (depth(b) - depth(0)) + of_c * (depth(c) - depth(0));
 }
 
-bool touch(const Surface& a, const Surface& b) {
-    for (std::uint32_t k : a.corner)
-        for (std::uint32_t l : b.corner)
-            if (k == l && k != none)
-                return true;
-    return false;
+// Whether two faces with a common corner meet like those of a solid: each lies behind the other.
+bool convex(const Scene& scene, const Surface& a, const Surface& b) {
+    glm::dvec3 normal = surface_normal(scene, a), origin = scene.positions[a.corner[0]];
+    double height = 0;
+    for (std::uint32_t corner : b.corner)
+        if (corner != none)
+            height += glm::dot(normal, scene.positions[corner] - origin);
+    return height < 0;
 }
 
 }  // namespace
@@ -73,11 +75,13 @@ void order_near_ties(const Projection& projection, const Scene& scene, const Pat
         double difference = exact_depth(projection, scene, centre, radius, surface_a, line) -
                             exact_depth(projection, scene, centre, radius, surface_b, line);
         // Surfaces in one place differ by no more than their corners' snapping, at slopes to 16.
-        double same = touching ? 0 : 16 * projection.bundle.spacing / radius / fixed_one;
+        double same = touching ? 1e-14 : 16 * projection.bundle.spacing / radius / fixed_one;
         if (std::fabs(difference) > same)
             return difference < 0;
+        // In one place: the air lies between a floor and what stands on it, so that the one met
+        // from behind comes first; but a line along the edge of a solid enters it before it leaves.
         if (from_behind(a) != from_behind(b))
-            return from_behind(a);
+            return from_behind(a) != (touching && convex(scene, surface_a, surface_b));
         return a.surface < b.surface;
     };
     for (Hit* k = begin + 1; k < end; ++k) {

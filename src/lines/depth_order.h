@@ -13,6 +13,15 @@ void order_near_ties(const Projection& projection, const Scene& scene, const Pat
                      const glm::dvec3& centre, double radius, std::int32_t column, std::int32_t row,
                      Hit* begin, Hit* end);
 
+/// Whether two surfaces share a corner.
+inline bool touch(const Surface& a, const Surface& b) {
+    for (std::uint32_t k : a.corner)
+        for (std::uint32_t l : b.corner)
+            if (k == l && k != none)
+                return true;
+    return false;
+}
+
 /// Depths closer than this, in radii, are near ties: an eighth of a line spacing.
 inline float near_tie(double spacing, double radius) {
     return static_cast<float>(0.125 * spacing / radius);

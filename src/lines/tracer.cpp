@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "lines/depth_order.h"
 #include "lines/directions.h"
 #include "lines/ray_scene.h"
 #include "parallux/error.h"
@@ -31,6 +33,21 @@ LineSphere line_sphere(const Scene& scene, double wanted_radius) {
     return sphere;
 }
 
+namespace {
+
+// Surfaces that lie in one place (a solid on a floor) are met at depths that rounding decides: the
+// one met from behind comes first, since the gap is between them.
+void order_coincident(const Scene& scene, std::vector<SurfaceHit>& hits, float same) {
+    for (std::size_t k = 1; k < hits.size(); ++k) {
+        SurfaceHit &a = hits[k - 1], &b = hits[k];
+        if (b.t - a.t <= same && b.back && !a.back &&
+            !touch(scene.surfaces[a.surface], scene.surfaces[b.surface]))
+            std::swap(a, b);
+    }
+}
+
+}  // namespace
+
 void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patches,
                  const LineSphere& sphere, std::uint64_t seed, std::uint64_t first,
                  std::size_t count, IntersectionLists& lists, std::vector<glm::dvec3>* directions) {
@@ -51,6 +68,7 @@ void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patche
         glm::dvec3 across = r * std::cos(angle) * x + r * std::sin(angle) * y;
         double half = 1.001 * sphere.radius;
         rays.all(sphere.centre + across - half * direction, direction, 2 * half, hits);
+        order_coincident(scene, hits, 1e-6f * static_cast<float>(sphere.radius));
         for (const SurfaceHit& crossing : hits) {
             const SurfaceGrid& grid = patches.grids[crossing.surface];
             Shape shape = scene.surfaces[crossing.surface].shape();

@@ -96,7 +96,7 @@ Solution gather(const Scene& scene, const Patches& patches, const SolveSettings&
     solution.batch = plan.batch;
     solution.threads = plan.threads;
     solution.first_shot_rays = plan.first_shot_rays;
-    solution.partial = pass.done < 1 || direct.done < 1;
+    solution.partial = !pass.whole || direct.done < 1;
     if (settings.method == Method::lines)
         solution.line_spacing = std::sqrt(plan.cell);
     return solution;

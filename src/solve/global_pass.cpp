@@ -85,6 +85,8 @@ public:
             });
     }
 
+    void darken_sky() { lit_ = false; }
+
 private:
     void follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
         Buffers& buffers = buffers_[worker];
@@ -109,6 +111,17 @@ private:
     std::vector<Projection> projections_;
 };
 
+// Bundles that work from the next snapshot. What is unshot at any time is about two batches' worth,
+// so that batches shrink towards the end: the leftover is then that of single bundles.
+std::uint32_t next_batch(const Plan& plan, std::uint64_t done) {
+    std::uint64_t emitting = plan.bundles - plan.closing;
+    if (done >= emitting)
+        return 1;
+    std::uint64_t left = emitting - done;
+    return static_cast<std::uint32_t>(
+        std::min(left, std::clamp<std::uint64_t>(left / 8, 1, plan.batch)));
+}
+
 }  // namespace
 
 PassResult global_pass(const Scene& scene, const Patches& patches, const RayScene* rays,
@@ -117,9 +130,14 @@ PassResult global_pass(const Scene& scene, const Patches& patches, const RayScen
                        const std::function<bool(std::uint64_t, std::uint64_t)>& go_on) {
     Pass pass(scene, patches, rays, settings, plan, state, banks);
     PassResult result;
+    std::uint64_t emitting = plan.bundles - plan.closing;
     while (result.bundles < plan.bundles) {
-        std::uint32_t batch = static_cast<std::uint32_t>(
-            std::min<std::uint64_t>(plan.batch, plan.bundles - result.bundles));
+        // Emission ends before the lines do.
+        if (result.bundles == emitting) {
+            std::fill(state.emission.begin(), state.emission.end(), 0);
+            pass.darken_sky();
+        }
+        std::uint32_t batch = next_batch(plan, result.bundles);
         share_unshot(state, patches, plan.cell, batch, plan.threads);
         if (settings.method == Method::bundles) {
             pass.bundles(result.bundles, batch);
@@ -135,7 +153,9 @@ PassResult global_pass(const Scene& scene, const Patches& patches, const RayScen
         if (!go_on(result.bundles, result.counts.lines))
             break;
     }
-    result.done = static_cast<double>(result.bundles) / static_cast<double>(plan.bundles);
+    result.done =
+        std::min(1.0, static_cast<double>(result.bundles) / static_cast<double>(emitting));
+    result.whole = result.bundles == plan.bundles;
     return result;
 }
 

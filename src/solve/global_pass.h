@@ -14,6 +14,7 @@ struct PassResult {
     LineCounts counts;
     std::uint64_t bundles = 0;  ///< done of those planned
     double done = 0;            ///< share of the planned emission that was sent
+    bool whole = false;         ///< all bundles are done
 };
 
 /// Sends batch after batch of line bundles (or of independent lines) through the scene; within a

@@ -85,6 +85,10 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
     }
     if (settings.direction == Direction::oriented)
         plan.emission_cell *= 2;
+    // The last bundles only carry on what the others left: an exit before them carries more.
+    plan.closing = std::min<std::uint64_t>(plan.bundles / 16, 32);
+    plan.emission_cell *=
+        static_cast<double>(plan.bundles) / static_cast<double>(plan.bundles - plan.closing);
     plan.batch =
         settings.batch
             ? settings.batch

@@ -19,6 +19,7 @@ struct Plan {
     double cell = 0;                 ///< area across its direction that one line stands for, m²
     double emission_cell = 0;        ///< an exit carries emission_cell · E over the whole run
     std::uint32_t batch = 1;
+    std::uint64_t closing = 0;  ///< of the bundles: the last ones, that carry no new emission
     LineSphere sphere;
     double watts_per_quantum = 1;
     std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take

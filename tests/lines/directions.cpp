@@ -84,7 +84,8 @@ TEST_CASE("the lattice covers the sphere evenly, however it is turned") {
 TEST_CASE("a bundle is a pure function with an orthonormal frame") {
     for (DirectionSet set : {DirectionSet::lattice, DirectionSet::random})
         for (std::uint64_t k : {0, 1, 77, 999}) {
-            Bundle a = make_bundle({11, 1000, set, 0.25}, k), b = make_bundle({11, 1000, set, 0.25}, k);
+            Bundle a = make_bundle({11, 1000, set, 0.25}, k),
+                   b = make_bundle({11, 1000, set, 0.25}, k);
             CHECK(a.direction == b.direction);
             CHECK(a.x == b.x);
             CHECK(a.offset_x == b.offset_x);

@@ -125,7 +125,7 @@ TEST_CASE("a crease ends a cluster") {
             for (int i = 0; i <= n; ++i) {
                 double a = 0.1 * i / n, b = 0.1 * j / n;
                 if (side == 1 && i == 0)
-                    continue;   // shares the edge's corners with the first wall
+                    continue;  // shares the edge's corners with the first wall
                 scene.positions.push_back(side ? glm::dvec3(0, b, a) : glm::dvec3(a, b, 0));
             }
     auto corner = [&](int side, int i, int j) {

@@ -68,13 +68,12 @@ inline void add_turned_cube(Scene& scene, glm::dvec3 centre, double side, std::u
     // Columns of a rotation with rational entries: (2, 3, 6) / 7 and its kin.
     glm::dvec3 x = glm::dvec3(2, 3, 6) / 7.0, y = glm::dvec3(3, -6, 2) / 7.0,
                z = glm::dvec3(6, 2, -3) / 7.0;
-    add_box(
-        scene,
-        [&](glm::dvec3 p) {
-            p = side * (p - glm::dvec3(0.5));
-            return centre + p.x * x + p.y * y + p.z * z;
-        },
-        false, n, {m, m, m, m, m, m});
+    add_box(scene,
+            [&](glm::dvec3 p) {
+                p = side * (p - glm::dvec3(0.5));
+                return centre + p.x * x + p.y * y + p.z * z;
+            },
+            false, n, {m, m, m, m, m, m});
 }
 
 /// An L-shaped room of height 1: the unit squares at (0, 0), (1, 0) and (0, 1), with floors and
@@ -84,7 +83,8 @@ inline Scene l_room(const Material& wall, const Material& light, std::uint32_t n
     scene.bands = 1;
     scene.materials = {wall, light};
     scene.objects = {"room"};
-    constexpr double outline[8][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 1}};
+    constexpr double outline[8][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1},
+                                      {1, 1}, {1, 2}, {0, 2}, {0, 1}};
     for (int z = 0; z < 2; ++z)
         for (const auto& p : outline)
             scene.positions.push_back({p[0], p[1], z});

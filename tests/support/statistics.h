@@ -21,9 +21,7 @@ struct Sample {
         ++count;
     }
     double mean() const { return sum / count; }
-    double variance() const {
-        return std::max(0.0, (squares - sum * sum / count) / (count - 1));
-    }
+    double variance() const { return std::max(0.0, (squares - sum * sum / count) / (count - 1)); }
     double standard_error() const { return std::sqrt(variance() / count); }
     /// (mean - expected) in standard errors; 0 where both agree to rounding and nothing spreads.
     double z(double expected) const {
@@ -42,7 +40,9 @@ inline double student_tail(double t, int freedom) {
         constexpr int steps = 2000;
         double h = (b - a) / steps, sum = 0;
         for (int k = 0; k <= steps; ++k)
-            sum += std::pow(std::cos(a + k * h), freedom - 1) * (k == 0 || k == steps ? 1 : k % 2 ? 4 : 2);
+            sum += std::pow(std::cos(a + k * h), freedom - 1) * (k == 0 || k == steps ? 1
+                                                                 : k % 2              ? 4
+                                                                                      : 2);
         return sum * h / 3;
     };
     return integral(from, pi / 2) / integral(0, pi / 2);
