@@ -24,7 +24,12 @@ bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, dou
 // wide: narrower than floats resolve where they stand, so no face. Width is judged beside length,
 // because far from the origin rounding alone flattens honest faces, too.
 bool is_face(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    auto rounded = [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)); };
+    // Veltkamp's splitting rounds to a float's 24 bits. dvec3(vec3(p)) would say the same, but g++
+    // 12 drops that pair of conversions at -O2.
+    auto rounded = [](const glm::dvec3& p) {
+        glm::dvec3 t = 536870913.0 * p;
+        return t - (t - p);
+    };
     return has_area(a, b, c, 2.4e-7) ||
            (has_area(a, b, c) && has_area(rounded(a), rounded(b), rounded(c), 0));
 }
