@@ -12,8 +12,10 @@ namespace parallux {
 
 namespace {
 
-constexpr int few_points = 16;    // tells whether anything is hidden
-constexpr int many_points = 256;  // measures how much
+constexpr int few_points = 16;      // tells whether anything is hidden
+constexpr int many_points = 256;    // measures how much
+constexpr double contact = 0.02;    // patch sides: nearer is upon it
+constexpr double close_lamp = 0.5;  // patch sides: a lamp nearer than that lights what it covers
 
 // A point of a patch on one of its surfaces.
 struct PatchPoint {
@@ -52,6 +54,9 @@ public:
             ask(result, frames, points, exposed);
         }
         result.share = double(exposed.size()) / points;
+        // A lamp's share is not known well enough to see the little that is left beside it.
+        if (result.cover != Spectrum() && result.share < 0.5)
+            result.share = 0;
         if (result.share > 0 && result.share < 1) {
             result.mean = glm::dvec3(0);
             for (const glm::dvec3& p : exposed)
@@ -101,14 +106,17 @@ private:
         return result;
     }
 
-    void ask(const ExposedPatch& patch, const std::vector<Frame>& frames, int points,
+    void ask(ExposedPatch& patch, const std::vector<Frame>& frames, int points,
              std::vector<glm::dvec3>& exposed) const {
         exposed.clear();
+        Spectrum cover;
         for (int i = 0; i < points; ++i) {
             PatchPoint p = point(patch, frames, i, points);
-            if (!hidden(p, patch))
+            if (!hidden(p, patch, cover))
                 exposed.push_back(p.position);
         }
+        for (std::uint32_t b = 0; b < patches_.bands; ++b)
+            patch.cover[b] = cover[b] / static_cast<float>(points);
     }
 
     // Point i of n, spread evenly by area: a Fibonacci lattice over the row of pieces.
@@ -126,13 +134,21 @@ private:
         return {f.origin + a * f.a + b * f.b, f.surface};
     }
 
-    bool hidden(const PatchPoint& p, const ExposedPatch& patch) const {
+    bool hidden(const PatchPoint& p, const ExposedPatch& patch, Spectrum& cover) const {
         // Something that faces it lies upon it.
-        double contact = std::max(rounding_, 0.02 * patch.size);
-        SurfaceHit hit = rays_.closest(p.position - rounding_ * patch.normal, patch.normal,
-                                       rounding_ + contact, p.surface);
-        if (hit.surface != none && !inert_back(hit))
-            return true;
+        double height = std::max(rounding_, contact * patch.size);
+        SurfaceHit hit =
+            rays_.closest(p.position - rounding_ * patch.normal, patch.normal,
+                          rounding_ + std::max(height, close_lamp * patch.size), p.surface);
+        if (hit.surface != none && !inert_back(hit)) {
+            const float* emission = &patches_.emission[std::size_t(patch_at(hit)) * patches_.bands];
+            bool lamp =
+                std::any_of(emission, emission + patches_.bands, [](float e) { return e > 0; });
+            for (std::uint32_t b = 0; b < patches_.bands; ++b)
+                cover[b] += emission[b];
+            if (lamp || hit.t <= rounding_ + height)
+                return true;
+        }
         // It looks at nothing but inert backs: along the normal, and five ways around it.
         if (!looks_at_back(p, patch.normal))
             return false;
@@ -150,6 +166,12 @@ private:
     bool looks_at_back(const PatchPoint& p, const glm::dvec3& direction) const {
         SurfaceHit hit = rays_.closest(p.position, direction, HUGE_VAL, p.surface);
         return hit.surface != none && inert_back(hit);
+    }
+
+    std::uint32_t patch_at(const SurfaceHit& hit) const {
+        const SurfaceGrid& grid = patches_.grids[hit.surface];
+        return (hit.back ? grid.back : grid.front) +
+               cell_at(scene_.surfaces[hit.surface].shape(), grid.nu, grid.nv, hit.u, hit.v);
     }
 
     bool inert_back(const SurfaceHit& hit) const {

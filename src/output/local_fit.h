@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -27,8 +28,9 @@ private:
     };
 
     double irradiance(std::uint32_t patch, std::uint32_t band) const {
-        return solution_.irradiance[std::size_t(patch) * solution_.bands + band] /
-               patches_[patch].share;
+        const ExposedPatch& p = patches_[patch];
+        float h = solution_.irradiance[std::size_t(patch) * solution_.bands + band];
+        return std::max(h - p.cover[band], 0.0f) / p.share;
     }
     void gather(const glm::dvec3& place, std::span<const std::uint32_t> around,
                 std::span<const std::uint32_t> near);

@@ -170,6 +170,26 @@ TEST_CASE("a box on the floor has no dark fringe") {
     }
 }
 
+// Planted error: the part above the lamp not told from the rest spreads a bright spot.
+TEST_CASE("a lamp close under the ceiling leaves no bright rim") {
+    Case c;
+    c.material(Spectrum::constant(0.5f));
+    c.material(Spectrum::constant(0.5f), true, Spectrum::constant(100));
+    c.quad({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 16, 16);
+    c.quad({0.41, 0.41, 0.995}, {0.18, 0, 0}, {0, 0.18, 0}, 2, 2, 1);
+    auto above = [](const dvec3& p) {
+        return p.x > 0.41 && p.x < 0.59 && p.y > 0.41 && p.y < 0.59;
+    };
+    c.divide([&](const dvec3& p, const dvec3&) { return above(p) ? 100.0 : 1.0; });
+    Interpolated field(c);
+    double most = 0;
+    for (int i = 0; i <= 100; ++i)
+        for (int j = 0; j <= 100; ++j)
+            if (!above({j / 100.0, i / 100.0, 1}))
+                most = std::max(most, value(field, 0, i / 100.0, j / 100.0));
+    CHECK(most < 2.5);
+}
+
 // Planted error: fits that see their own surface only; the jump is then that of two one-sided fits.
 TEST_CASE("coplanar neighbours with different grids show no seam") {
     auto smooth = [](const dvec3& p, const dvec3&) {
