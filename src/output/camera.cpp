@@ -44,16 +44,27 @@ double distance_to_wall(const Scene& scene, const RayScene& rays, const glm::dve
     return HUGE_VAL;
 }
 
-// Whether nearly all of 64 even directions meet a surface that can be seen from here.
-bool is_inside(const Scene& scene, const RayScene& rays, const glm::dvec3& from) {
+// What 64 even directions from a point meet: how many a surface that can be seen from there, and
+// the mean of those that meet nothing.
+struct Enclosure {
     int met = 0;
+    glm::dvec3 opening{0};
+};
+
+Enclosure enclosure(const Scene& scene, const RayScene& rays, const glm::dvec3& from) {
+    Enclosure result;
     for (int i = 0; i < 64; ++i) {
         double z = 1 - (2 * i + 1) / 64.0, r = std::sqrt(1 - z * z);
         double phi = i * 2.399963229728653;
         glm::dvec3 direction(r * std::cos(phi), r * std::sin(phi), z);
-        met += std::isfinite(distance_to_wall(scene, rays, from, direction)) ? 1 : 0;
+        if (std::isfinite(distance_to_wall(scene, rays, from, direction)))
+            ++result.met;
+        else
+            result.opening += direction;
     }
-    return met >= 58;
+    if (result.met < 64)
+        result.opening /= 64 - result.met;
+    return result;
 }
 
 // Stands near one end of the room's longest side and looks along it, a little down.
@@ -90,12 +101,38 @@ Camera outdoors(const Bounds& bounds, const glm::dvec3& up) {
     return camera;
 }
 
+// Stands before the open side of a room and looks in.
+Camera before_opening(const Bounds& bounds, const glm::dvec3& opening, const glm::dvec3& up) {
+    glm::dvec3 middle = 0.5 * (bounds.low + bounds.high), half = 0.5 * (bounds.high - bounds.low);
+    // Turn the opening's direction to the nearest axis.
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::abs(opening[k]) > std::abs(opening[axis]))
+            axis = k;
+    glm::dvec3 out(0);
+    out[axis] = opening[axis] > 0 ? 1 : -1;
+    double depth = half[axis];
+    half[axis] = 0;
+    double fov = 0.7, widest = std::max({half.x, half.y, half.z});
+    double distance = depth + 1.05 * widest / std::tan(0.5 * fov);
+    bool level = std::abs(glm::dot(out, up)) < 0.9;
+    glm::dvec3 upright = level ? up : glm::dvec3(up.y, up.z, up.x);
+    Camera camera = looking(middle + distance * out, middle, upright);
+    camera.vertical_fov = fov;
+    return camera;
+}
+
 Camera whole_scene(const Scene& scene) {
     Bounds bounds = scene_bounds(scene);
     glm::dvec3 up = up_axis(scene);
     RayScene rays(scene, 1);
-    bool inside = is_inside(scene, rays, 0.5 * (bounds.low + bounds.high));
-    return inside ? indoors(scene, rays, bounds, up) : outdoors(bounds, up);
+    Enclosure walls = enclosure(scene, rays, 0.5 * (bounds.low + bounds.high));
+    if (walls.met >= 58)
+        return indoors(scene, rays, bounds, up);
+    // One side of six missing lets some eleven of 64 directions out, all near its own.
+    if (walls.met >= 44 && glm::length(walls.opening) > 0.7)
+        return before_opening(bounds, walls.opening, up);
+    return outdoors(bounds, up);
 }
 
 }  // namespace

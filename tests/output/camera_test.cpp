@@ -48,6 +48,12 @@ TEST_CASE("without a camera, one stands in a closed room and looks along it") {
     CHECK(camera.forward.z < 0);
     CHECK(glm::dot(camera.forward, camera.up) == doctest::Approx(0));
     CHECK(glm::length(camera.up) == doctest::Approx(1));
+    // Without one wall it stands before the opening.
+    c.scene.surfaces.erase(c.scene.surfaces.begin() + 2);  // that at y = 0
+    camera = choose_camera(c.scene, "");
+    CHECK(camera.position.y < -1.5);
+    CHECK(camera.forward.y > 0.99);
+    CHECK(camera.up.z > 0.99);
 }
 
 // Planted error: a distance for the bounds' side instead of their diagonal.
