@@ -45,11 +45,17 @@ void watch_signals() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-void keep_results() { keeping = true; }
+void keep_results() {
+    keeping = true;
+}
 
-bool interrupted() { return signals > 0; }
+bool interrupted() {
+    return signals > 0;
+}
 
-WritingFile::WritingFile() { writing = true; }
+WritingFile::WritingFile() {
+    writing = true;
+}
 
 WritingFile::~WritingFile() {
     writing = false;

@@ -63,13 +63,13 @@ void add_scene(CLI::App& app, std::filesystem::path& scene, LoadSettings& load) 
     app.add_option("SCENE", scene, "glTF (.gltf, .glb), OBJ, STL or Parallux (.json) scene")
         ->required()
         ->type_name("");
-    add(app, "--scale", "X", "Metres per unit of the scene file [1]",
-        [&](auto& v) { load.scale = parse_positive("--scale", v); })
-        ->group("Scene");
+    add(app, "--scale", "X", "Metres per unit of the scene file [1]", [&](auto& v) {
+        load.scale = parse_positive("--scale", v);
+    })->group("Scene");
     add(app, "--reflectance", "R", "Of faces without a material, as in STL, 0 to 0.999 [0.5]",
         [&](auto& v) {
-            load.reflectance = Spectrum::constant(
-                static_cast<float>(parse_real("--reflectance", v, 0, 0.999)));
+            load.reflectance =
+                Spectrum::constant(static_cast<float>(parse_real("--reflectance", v, 0, 0.999)));
         })
         ->group("Scene");
 }
@@ -95,10 +95,9 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
     auto of_picture = [&](CLI::Option* option) { option->needs(image)->group("Picture"); };
     of_picture(app.add_option("--camera", o.camera, "By name or index [the first]")
                    ->type_name("NAME|INDEX"));
-    of_picture(add(app, "--size", "WxH", "Pixels; W alone takes the camera's aspect [1024]",
-                   [&](auto& v) {
-                       std::tie(picture.width, picture.height) = parse_size("--size", v);
-                   }));
+    of_picture(
+        add(app, "--size", "WxH", "Pixels; W alone takes the camera's aspect [1024]",
+            [&](auto& v) { std::tie(picture.width, picture.height) = parse_size("--size", v); }));
     of_picture(add(app, "--exposure", "EV", "Stops on top of the automatic exposure of PNG [0]",
                    [&](auto& v) { picture.exposure = parse_real("--exposure", v, -64, 64); }));
     of_picture(add(app, "--tone", "CURVE", "Of PNG: filmic or clamp [filmic]", [&](auto& v) {
@@ -112,9 +111,8 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
 
 void add_patches(CLI::App& app, SolveOptions& o) {
     const char* group = "Patches";
-    auto* size = add(app, "--patch-size", "L", "Wanted side, in the scene's units", [&](auto& v) {
-        o.patches.size = parse_positive("--patch-size", v);
-    });
+    auto* size = add(app, "--patch-size", "L", "Wanted side, in the scene's units",
+                     [&](auto& v) { o.patches.size = parse_positive("--patch-size", v); });
     auto* count = add(app, "--patches", "N", "Wanted number in all [10000]", [&](auto& v) {
         o.patches.count = parse_count("--patches", v, 1, 0x7fffffff);
     });
@@ -134,32 +132,33 @@ void add_method(CLI::App& app, SolveSettings& s) {
     option("--method", "M", "bundles (of parallel lines) or lines (independent) [bundles]",
            [&](auto& v) { s.method = parse_method(v); });
     option("--direction", "D", "bidirectional or oriented exchange [bidirectional]", [&](auto& v) {
-        s.direction = parse_choice<Direction>("--direction", v,
-                                              {{"bidirectional", Direction::bidirectional},
-                                               {"oriented", Direction::oriented}});
+        s.direction = parse_choice<Direction>(
+            "--direction", v,
+            {{"bidirectional", Direction::bidirectional}, {"oriented", Direction::oriented}});
     });
     option("--first-shot", "F", "Direct light by rays, or none [rays]",
            [&](auto& v) { s.first_shot = parse_first_shot(v); });
     option("--first-shot-rays", "N", "Rays of the first shot [grows with the lines]",
            [&](auto& v) { s.first_shot_rays = parse_count("--first-shot-rays", v, 1); });
-    auto* bundles = option("--bundles", "D", "Directions of parallel lines [1024]", [&](auto& v) {
-        s.bundles = parse_count("--bundles", v, 1);
-    });
-    option("--lines", "N", "Lines in all", [&](auto& v) { s.lines = parse_count("--lines", v, 1); })
-        ->excludes(bundles);
-    auto* spacing =
-        option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
-               [&](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
-    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4]", [&](auto& v) {
-        s.lines_per_patch = parse_positive("--lines-per-patch", v);
-    })->excludes(spacing);
+    auto* bundles = option("--bundles", "D", "Directions of parallel lines [1024]",
+                           [&](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
+    option("--lines", "N", "Lines in all", [&](auto& v) {
+        s.lines = parse_count("--lines", v, 1);
+    })->excludes(bundles);
+    auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
+                           [&](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
+    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4]",
+           [&](auto& v) { s.lines_per_patch = parse_positive("--lines-per-patch", v); })
+        ->excludes(spacing);
     option("--directions", "D", "lattice or random [lattice]", [&](auto& v) {
         s.directions = parse_choice<DirectionSet>(
             "--directions", v,
             {{"lattice", DirectionSet::lattice}, {"random", DirectionSet::random}});
     });
     option("--batch", "B", "Bundles from one snapshot; part of the result [up to 16]",
-           [&](auto& v) { s.batch = static_cast<std::uint32_t>(parse_count("--batch", v, 1, count_32)); });
+           [&](auto& v) {
+               s.batch = static_cast<std::uint32_t>(parse_count("--batch", v, 1, count_32));
+           });
     option("--sphere-radius", "R", "Of independent lines, in the scene's units [around the scene]",
            [&](auto& v) { s.sphere_radius = parse_positive("--sphere-radius", v); });
     option("--seed", "S", "Equal seeds give equal results, whatever the threads [1]",
@@ -231,9 +230,8 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& o) {
     auto* compare = app.add_subcommand("compare", "Say how two tables of one scene differ");
     compare->add_option("A", o.a, "Table to judge")->required()->type_name("FILE.csv");
     compare->add_option("B", o.b, "Table to judge it by")->required()->type_name("FILE.csv");
-    add(*compare, "--tolerance", "T", "Exit with 1 when the relative RMS is above T", [&](auto& v) {
-        o.tolerance = parse_real("--tolerance", v, 0, 1e15);
-    });
+    add(*compare, "--tolerance", "T", "Exit with 1 when the relative RMS is above T",
+        [&](auto& v) { o.tolerance = parse_real("--tolerance", v, 0, 1e15); });
     return compare;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
@@ -29,8 +29,8 @@ std::string describe(const Progress& p) {
     char text[96];
     int size = std::snprintf(text, sizeof text, "%3d %%", static_cast<int>(p.done * 100));
     auto more = [&](const char* format, double value) {
-        size += std::snprintf(text + size, sizeof text - static_cast<std::size_t>(size), format,
-                              value);
+        size +=
+            std::snprintf(text + size, sizeof text - static_cast<std::size_t>(size), format, value);
     };
     if (p.lines > 0)
         more("  %.3g M lines/s", rate(p) / 1e6);
@@ -59,7 +59,9 @@ ProgressReport::ProgressReport(ProgressMode mode) {
         form_ = isatty(STDERR_FILENO) ? Form::bar : Form::lines;
 }
 
-ProgressReport::~ProgressReport() { end_bar(); }
+ProgressReport::~ProgressReport() {
+    end();
+}
 
 bool ProgressReport::operator()(const Progress& progress) {
     if (form_ != Form::none && due(progress)) {
@@ -76,7 +78,7 @@ bool ProgressReport::operator()(const Progress& progress) {
 /// A new stage is always told; then lines by tenths, the others ten times a second and at the end.
 bool ProgressReport::due(const Progress& progress) {
     if (stage_ != progress.stage) {
-        end_bar();
+        end();
         stage_ = progress.stage;
         told_ = -1;
         last_ = {};
@@ -103,7 +105,7 @@ void ProgressReport::draw_bar(const Progress& progress) {
     open_ = true;
 }
 
-void ProgressReport::end_bar() {
+void ProgressReport::end() {
     if (open_)
         std::fputc('\n', stderr);
     open_ = false;

@@ -18,16 +18,18 @@ public:
 
     bool operator()(const Progress& progress);
 
+    /// Leaves the bar's line, so that the next text begins its own.
+    void end();
+
 private:
     enum class Form { none, bar, lines, json };
 
     bool due(const Progress& progress);
     void draw_bar(const Progress& progress);
-    void end_bar();
 
     Form form_ = Form::none;
     std::string stage_;
-    int told_ = -1;  // tenths of the stage that a line has told
+    int told_ = -1;      // tenths of the stage that a line has told
     bool open_ = false;  // a bar stands on the terminal's line
     std::chrono::steady_clock::time_point last_{};
 };

@@ -33,14 +33,15 @@ std::uint64_t parse_count(const std::string& option, const std::string& value, s
     double real = 0;
     bool whole = read_all(value, count);
     // Up to 2⁵³ a double holds whole numbers exactly.
-    if (!whole && read_all(value, real) && real >= 0 && real <= 0x1p53 && real == std::floor(real)) {
+    if (!whole && read_all(value, real) && real >= 0 && real <= 0x1p53 &&
+        real == std::floor(real)) {
         count = static_cast<std::uint64_t>(real);
         whole = true;
     }
     if (!whole || count < low || count > high)
-        refuse(option, value,
-               "expected a whole number from " + std::to_string(low) + " to " +
-                   std::to_string(high));
+        refuse(
+            option, value,
+            "expected a whole number from " + std::to_string(low) + " to " + std::to_string(high));
     return count;
 }
 
@@ -66,7 +67,8 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& value) {
     if (!suffix.empty() && suffix != "B") {
         std::size_t power = std::string("KMGT").find(suffix[0] == 'k' ? 'K' : suffix[0]);
         std::string rest = suffix.substr(1);
-        known = known && power != std::string::npos && (rest.empty() || rest == "iB" || rest == "B");
+        known =
+            known && power != std::string::npos && (rest.empty() || rest == "iB" || rest == "B");
         unit = std::pow(rest == "B" ? 1000.0 : 1024.0, static_cast<double>(power + 1));
     }
     double bytes = number * unit;
