@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/scene.h"
+#include "parallux/transfer.h"
 
 // Stage 6: the method. solve() is first shot, batches of lines, leftover, result.
 
 namespace parallux {
 
 enum class Method { bundles, lines };
-enum class Direction { bidirectional, oriented };
 enum class FirstShot { none, rays };
-enum class DirectionSet { lattice, random };
 
 struct SolveSettings {
     Method method = Method::bundles;
@@ -53,16 +53,6 @@ struct Balance {
     std::vector<std::int64_t> emitted, absorbed, escaped, unshot, residual;
 };
 
-struct LineCounts {
-    std::uint64_t lines = 0;      ///< cast
-    std::uint64_t nonempty = 0;   ///< that met something
-    std::uint64_t hits = 0;       ///< crossings of surfaces
-    std::uint64_t transfers = 0;  ///< pairs that exchanged
-    std::uint64_t odd = 0;        ///< lists of odd length
-    std::uint64_t met_backs = 0;  ///< transfers that ended at the back of a one-sided patch
-    std::uint64_t leaks = 0;      ///< closed scenes: odd; others 0
-};
-
 struct Seconds {
     double load = 0, patches = 0, first_shot = 0, global = 0, gather = 0, output = 0, total = 0;
 };
@@ -77,6 +67,7 @@ struct Solution {
     std::uint64_t hash = 0;                ///< over radiosity and irradiance alone
     Balance energy;
     LineCounts counts;
+    std::uint64_t leaks = 0;  ///< closed scenes: lists of odd length; others 0
     Seconds seconds;
     std::uint64_t bundles = 0;  ///< done
     double line_spacing = 0;

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "parallux/patches.h"
+#include "parallux/scene.h"
+
+// Stages 3 and 4: lines through the whole scene, and what each meets in order.
+
+namespace parallux {
+
+enum class DirectionSet { lattice, random };
+
+/// Parallel lines on a square lattice across `direction`. Line (column, row) passes through
+/// centre + spacing ((column - offset_x) x + (row - offset_y) y), column and row any integers.
+struct Bundle {
+    glm::dvec3 direction{0, 0, 1};  ///< unit
+    glm::dvec3 x{1, 0, 0};          ///< unit, across direction
+    glm::dvec3 y{0, 1, 0};          ///< unit, x × y = direction
+    double spacing = 1;             ///< δ, metres
+    double offset_x = 0;            ///< in spacings, [0, 1)
+    double offset_y = 0;
+};
+
+struct BundleSettings {
+    std::uint64_t seed = 1;
+    std::uint64_t count = 1;        ///< D, of the whole run: the lattice has so many points
+    DirectionSet directions = DirectionSet::lattice;
+    double spacing = 1;             ///< δ, metres
+};
+
+/// Bundle `index` of a run: a pure function of its arguments. Directions are a spherical Fibonacci
+/// lattice of `count` points under one random rotation, shuffled, or independent and uniform; the
+/// rotation in the plane and the offset are random for each bundle.
+Bundle make_bundle(const BundleSettings& settings, std::uint64_t index);
+
+/// One crossing of a line and a surface. `toward` is the patch on the side that a traveller along
+/// the direction sees when coming near, `away` the one seen when looking back; none: that side is
+/// the inert back of a one-sided surface.
+struct Hit {
+    float depth = 0;            ///< grows along the direction
+    std::uint32_t surface = none;
+    std::uint32_t toward = none;
+    std::uint32_t away = none;
+};
+
+/// The ordered hits of some lines: those of line k are hits[start[k]] … hits[start[k + 1] - 1], by
+/// depth, ties by surface.
+struct IntersectionLists {
+    std::vector<std::uint32_t> start{0};
+    std::vector<Hit> hits;
+
+    std::size_t lines() const { return start.size() - 1; }
+};
+
+/// Lines of one bundle that are worked on together: a tile's side.
+inline constexpr std::int32_t tile_side = 64;
+
+/// A bundle's view of the scene: snapped corners and the surfaces of every tile.
+struct Projection {
+    Bundle bundle;
+    std::int32_t left = 0, top = 0;        ///< first column and row
+    std::int32_t columns = 0, rows = 0;    ///< of the rectangle that holds the scene
+    std::int32_t tiles_x = 0, tiles_y = 0;
+    struct Corner {
+        std::int32_t x, y;                 ///< fixed point, 1 / fixed_one of a spacing
+        float depth;                       ///< in radii of the scene from its centre
+    };
+    std::vector<Corner> corners;           ///< one a position of the scene
+    std::vector<std::uint32_t> tile_start; ///< tiles + 1 offsets into tile_surfaces
+    std::vector<std::uint32_t> tile_surfaces;
+
+    std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * tiles_y; }
+    std::uint64_t lines() const { return static_cast<std::uint64_t>(columns) * rows; }
+};
+
+/// Finds all crossings of a bundle by rasterising the surfaces. Corners are snapped to a grid of
+/// 1/4096 spacing and rows are filled by exact integer arithmetic, half open on either side, so
+/// that two faces with a common edge leave no line out and share none: every line meets a closed
+/// surface an even number of times. Immutable after construction; queries run on any thread.
+class Projector {
+public:
+    /// Keeps references to both: they must outlive the projector.
+    Projector(const Scene& scene, const Patches& patches);
+
+    /// Projects corners and sorts surfaces into tiles. Linear in corners, surfaces and the tiles
+    /// they cover. Throws Fault::usage when the spacing gives more than 2¹⁸ lines a side.
+    void project(const Bundle& bundle, Projection& projection) const;
+
+    /// Scratch of one thread.
+    struct Workspace;
+    static std::shared_ptr<Workspace> make_workspace();
+
+    /// The lists of one tile, line = (row in tile) · (columns in tile) + column.
+    void lists(const Projection& projection, std::size_t tile, Workspace& workspace,
+               IntersectionLists& lists) const;
+
+    const glm::dvec3& centre() const { return centre_; }
+    double radius() const { return radius_; }
+
+private:
+    const Scene& scene_;
+    const Patches& patches_;
+    glm::dvec3 centre_{0};
+    double radius_ = 0;
+};
+
+class RayScene;
+
+/// Independent lines, uniform (isotropic, homogeneous) through a sphere about the scene.
+struct LineSphere {
+    glm::dvec3 centre{0};
+    double radius = 0;
+};
+
+/// The sphere of a scene: about the middle of its bounds, of the wanted radius, or the one that
+/// just holds it when that is 0. Throws Fault::usage when the wanted radius does not hold the scene.
+LineSphere line_sphere(const Scene& scene, double wanted_radius = 0);
+
+/// The lists of lines first … first + count - 1 of a run, by Embree in robust mode; each line a pure
+/// function of (seed, its number).
+void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patches,
+                 const LineSphere& sphere, std::uint64_t seed, std::uint64_t first,
+                 std::size_t count, IntersectionLists& lists);
+
+}  // namespace parallux
