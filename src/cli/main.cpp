@@ -12,6 +12,8 @@ using namespace parallux;
 
 namespace {
 
+constexpr int exit_above_tolerance = 1;
+
 int solve_scene(const SolveOptions& options) {
     check_outputs(options);
     Scene scene = load_scene(options.scene, options.load);
@@ -30,13 +32,19 @@ int solve_scene(const SolveOptions& options) {
     write_outputs(options, scene, patches, solution);
     if (!options.quiet)
         tell_summary(options, scene, patches, solution);
-    return interrupted() ? exit_interrupted : 0;
+    if (!interrupted())
+        return 0;
+    complain("parallux: interrupted; the outputs hold what was done until then");
+    return exit_interrupted;
 }
 
 int compare(const CompareOptions& options) {
     const Comparison comparison = compare_tables(options.a, options.b);
     print(describe_comparison(comparison));
-    return options.tolerance >= 0 && comparison.relative_rms > options.tolerance ? 1 : 0;
+    if (options.tolerance < 0 || comparison.relative_rms <= options.tolerance)
+        return 0;
+    complain("parallux: " + options.a.string() + ": the relative RMS is above the tolerance");
+    return exit_above_tolerance;
 }
 
 int run(const Options& options) {

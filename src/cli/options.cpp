@@ -11,6 +11,15 @@ namespace {
 
 constexpr std::uint64_t count_32 = 0xffffffffu;
 
+/// Help that names what an option takes; what it excludes is said when it is broken.
+class ShortHelp : public CLI::Formatter {
+public:
+    ShortHelp() { column_width(26); }
+    std::string make_option_opts(const CLI::Option* option) const override {
+        return option->get_type_name().empty() ? "" : " " + option->get_type_name();
+    }
+};
+
 /// Adds an option whose text a function reads; it throws Fault::usage when it does not like it.
 CLI::Option* add(CLI::App& app, const std::string& name, const std::string& value,
                  const std::string& help, std::function<void(const std::string&)> read) {
@@ -118,8 +127,9 @@ void add_patches(CLI::App& app, SolveOptions& o) {
     });
     size->excludes(count)->group(group);
     count->group(group);
-    app.add_flag("--no-clusters{false}", o.patches.clusters,
-                 "Give every fine triangle a patch of its own")
+    app.add_flag_callback(
+           "--no-clusters", [&] { o.patches.clusters = false; },
+           "Give every fine triangle a patch of its own")
         ->group(group);
 }
 
@@ -248,6 +258,7 @@ std::vector<std::filesystem::path> SolveOptions::outputs() const {
 Options parse_options(int argc, const char* const* argv) {
     Options options;
     CLI::App app("Parallux: how light and heat spread between diffuse surfaces.", "parallux");
+    app.formatter(std::make_shared<ShortHelp>());  // before the subcommands, which inherit it
     app.set_version_flag("--version", std::string("parallux ") + PARALLUX_VERSION);
     app.require_subcommand(1);
     auto* info = add_info(app, options.info);
@@ -265,6 +276,8 @@ Options parse_options(int argc, const char* const* argv) {
         return options;
     } catch (const CLI::ParseError& error) {
         auto chosen = app.get_subcommands();
+        if (chosen.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
+            throw Error(Fault::usage, "expected info, solve or compare; try parallux --help");
         throw Error(Fault::usage, std::string(error.what()) + "; try parallux " +
                                       (chosen.empty() ? "" : chosen[0]->get_name() + " ") +
                                       "--help");

@@ -64,7 +64,7 @@ ProgressReport::~ProgressReport() {
 }
 
 bool ProgressReport::operator()(const Progress& progress) {
-    if (form_ != Form::none && due(progress)) {
+    if (form_ != Form::off && due(progress)) {
         if (form_ == Form::bar)
             draw_bar(progress);
         else if (form_ == Form::json)

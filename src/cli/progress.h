@@ -22,12 +22,12 @@ public:
     void end();
 
 private:
-    enum class Form { none, bar, lines, json };
+    enum class Form { off, bar, lines, json };
 
     bool due(const Progress& progress);
     void draw_bar(const Progress& progress);
 
-    Form form_ = Form::none;
+    Form form_ = Form::off;
     std::string stage_;
     int told_ = -1;      // tenths of the stage that a line has told
     bool open_ = false;  // a bar stands on the terminal's line

@@ -47,7 +47,7 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
              << " M lines/s on " << solution.threads << " threads";
     text << '\n';
     text << "energy   " << energy(solution.energy) << '\n';
-    text << "leaks    " << counts.leaks << '\n';
+    text << "leaks    " << solution.leaks << '\n';
     text << "time     " << std::fixed << std::setprecision(2) << solution.seconds.total << " s\n";
     for (const std::filesystem::path& file : options.outputs())
         text << "wrote    " << printable(file.string()) << '\n';

@@ -105,7 +105,7 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["transfers"] = counts.transfers;
     stats["average_list"] = ratio(hits, lines);
     stats["average_nonempty_list"] = ratio(hits, static_cast<double>(counts.nonempty));
-    stats["leaks"] = counts.leaks;
+    stats["leaks"] = solution.leaks;
     stats["seconds"] = seconds_of(solution.seconds);
     stats["lines_per_second"] = ratio(lines, solution.seconds.global);
     stats["peak_memory_bytes"] = peak_memory();
