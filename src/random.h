@@ -15,6 +15,14 @@ inline std::uint64_t mix64(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
+/// Streams are parted by use, so that no two uses ever draw the same numbers.
+namespace stream {
+inline constexpr std::uint64_t rotation = 0;
+inline constexpr std::uint64_t bundles = std::uint64_t(1) << 56;
+inline constexpr std::uint64_t lines = std::uint64_t(2) << 56;
+inline constexpr std::uint64_t first_shot = std::uint64_t(3) << 56;
+}  // namespace stream
+
 class Random {
 public:
     Random(std::uint64_t seed, std::uint64_t stream)

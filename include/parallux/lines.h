@@ -29,9 +29,9 @@ struct Bundle {
 
 struct BundleSettings {
     std::uint64_t seed = 1;
-    std::uint64_t count = 1;        ///< D, of the whole run: the lattice has so many points
+    std::uint64_t count = 1;  ///< D, of the whole run: the lattice has so many points
     DirectionSet directions = DirectionSet::lattice;
-    double spacing = 1;             ///< δ, metres
+    double spacing = 1;  ///< δ, metres
 };
 
 /// Bundle `index` of a run: a pure function of its arguments. Directions are a spherical Fibonacci
@@ -43,7 +43,7 @@ Bundle make_bundle(const BundleSettings& settings, std::uint64_t index);
 /// the direction sees when coming near, `away` the one seen when looking back; none: that side is
 /// the inert back of a one-sided surface.
 struct Hit {
-    float depth = 0;            ///< grows along the direction
+    float depth = 0;  ///< grows along the direction
     std::uint32_t surface = none;
     std::uint32_t toward = none;
     std::uint32_t away = none;
@@ -64,15 +64,15 @@ inline constexpr std::int32_t tile_side = 64;
 /// A bundle's view of the scene: snapped corners and the surfaces of every tile.
 struct Projection {
     Bundle bundle;
-    std::int32_t left = 0, top = 0;        ///< first column and row
-    std::int32_t columns = 0, rows = 0;    ///< of the rectangle that holds the scene
+    std::int32_t left = 0, top = 0;      ///< first column and row
+    std::int32_t columns = 0, rows = 0;  ///< of the rectangle that holds the scene
     std::int32_t tiles_x = 0, tiles_y = 0;
     struct Corner {
-        std::int32_t x, y;                 ///< fixed point, 1 / fixed_one of a spacing
-        float depth;                       ///< in radii of the scene from its centre
+        std::int32_t x, y;  ///< fixed point, 1 / fixed_one of a spacing
+        float depth;        ///< in radii of the scene from its centre
     };
-    std::vector<Corner> corners;           ///< one a position of the scene
-    std::vector<std::uint32_t> tile_start; ///< tiles + 1 offsets into tile_surfaces
+    std::vector<Corner> corners;            ///< one a position of the scene
+    std::vector<std::uint32_t> tile_start;  ///< tiles + 1 offsets into tile_surfaces
     std::vector<std::uint32_t> tile_surfaces;
 
     std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * tiles_y; }
@@ -119,13 +119,15 @@ struct LineSphere {
 };
 
 /// The sphere of a scene: about the middle of its bounds, of the wanted radius, or the one that
-/// just holds it when that is 0. Throws Fault::usage when the wanted radius does not hold the scene.
+/// just holds it when that is 0. Throws Fault::usage when the wanted radius does not hold the
+/// scene.
 LineSphere line_sphere(const Scene& scene, double wanted_radius = 0);
 
-/// The lists of lines first … first + count - 1 of a run, by Embree in robust mode; each line a pure
-/// function of (seed, its number).
+/// The lists of lines first … first + count - 1 of a run, by Embree in robust mode; each line a
+/// pure function of (seed, its number). `directions`, where given, gets that of every line.
 void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patches,
                  const LineSphere& sphere, std::uint64_t seed, std::uint64_t first,
-                 std::size_t count, IntersectionLists& lists);
+                 std::size_t count, IntersectionLists& lists,
+                 std::vector<glm::dvec3>* directions = nullptr);
 
 }  // namespace parallux

@@ -2,10 +2,10 @@
 
 /// \file Everything a user of the library needs, in the order of the flow.
 #include "parallux/error.h"
-#include "parallux/patches.h"
 #include "parallux/lines.h"
-#include "parallux/transfer.h"
+#include "parallux/patches.h"
 #include "parallux/picture.h"
 #include "parallux/scene.h"
 #include "parallux/solve.h"
 #include "parallux/tables.h"
+#include "parallux/transfer.h"

@@ -15,7 +15,7 @@
 namespace parallux {
 
 enum class Method { bundles, lines };
-enum class FirstShot { none, rays };
+enum class FirstShot { off, rays };
 
 struct SolveSettings {
     Method method = Method::bundles;

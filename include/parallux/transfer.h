@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "parallux/lines.h"
@@ -35,6 +36,7 @@ struct TransferState {
     std::vector<std::int64_t> quanta;    ///< carried by an exit of this batch: emission + share
     std::vector<std::uint64_t> exits;    ///< lines that left the patch so far
     std::vector<std::int64_t> sky;       ///< band totals of what the sky sent in
+    std::vector<std::int64_t> emitted;   ///< band totals of emission quanta sent
     std::vector<std::int64_t> absorbed;  ///< band totals
     std::vector<std::int64_t> escaped;
 };
@@ -49,6 +51,7 @@ struct Deltas {
 struct WorkerTotals {
     LineCounts counts;
     std::vector<std::int64_t> escaped = std::vector<std::int64_t>(max_bands, 0);
+    /// What came in from outside the exchange: from the sky, or from a light's first shot.
     std::vector<std::int64_t> sky = std::vector<std::int64_t>(max_bands, 0);
 };
 
@@ -60,17 +63,17 @@ struct SkyQuanta {
 
 /// Sets what every exit carries until the next merge: its emission quantum and the linear share
 /// min(1, cell / area) / batch of its unshot energy. `cell` is the area across the direction that
-/// one line stands for (δ² of a bundle), doubled when only one direction carries energy: then a
-/// patch is left by half as many lines. O(patches), in parallel.
+/// one line stands for (δ² of a bundle). O(patches), in parallel.
 void share_unshot(TransferState& state, const Patches& patches, double cell, std::uint32_t batch,
                   unsigned threads);
 
 /// Follows the lists: neighbours on a line that face each other send each other their quanta
 /// (oriented: only along the direction). What meets the back of a one-sided surface or leaves the
-/// scene is counted as escaped; it goes no further. `shared`: another worker may add to the same
+/// scene is counted as escaped; it goes no further. `sky` is empty, one for all lines (a bundle) or
+/// one a line. `shared`: another worker may add to the same
 /// deltas at this time, so that additions are atomic.
 void exchange(const IntersectionLists& lists, const TransferState& state, Direction direction,
-              const SkyQuanta& sky, Deltas& deltas, bool shared, WorkerTotals& totals);
+              std::span<const SkyQuanta> sky, Deltas& deltas, bool shared, WorkerTotals& totals);
 
 /// Adds all deltas and totals to the state and clears them: what was sent leaves unshot, what came
 /// is absorbed or becomes unshot, exactly. O(patches), in parallel.

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "lines/directions.h"
+#include "lines/ray_scene.h"
+#include "parallux/error.h"
+#include "parallux/lines.h"
+
+namespace parallux {
+
+LineSphere line_sphere(const Scene& scene, double wanted_radius) {
+    Bounds bounds = scene_bounds(scene);
+    LineSphere sphere;
+    sphere.centre = 0.5 * (bounds.low + bounds.high);
+    for (const Surface& surface : scene.surfaces)
+        for (std::uint32_t corner : surface.corner)
+            if (corner != none)
+                sphere.radius =
+                    std::max(sphere.radius, glm::distance(sphere.centre, scene.positions[corner]));
+    if (wanted_radius <= 0)
+        wanted_radius = scene.line_sphere;
+    if (wanted_radius > 0) {
+        if (wanted_radius < sphere.radius)
+            throw Error(Fault::usage, "a line sphere of radius " + std::to_string(wanted_radius) +
+                                          " m does not hold the scene, whose radius is " +
+                                          std::to_string(sphere.radius) + " m");
+        sphere.radius = wanted_radius;
+    }
+    return sphere;
+}
+
+void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patches,
+                 const LineSphere& sphere, std::uint64_t seed, std::uint64_t first,
+                 std::size_t count, IntersectionLists& lists, std::vector<glm::dvec3>* directions) {
+    if (directions)
+        directions->clear();
+    lists.start.assign(1, 0);
+    lists.hits.clear();
+    std::vector<SurfaceHit> hits;
+    for (std::size_t k = 0; k < count; ++k) {
+        // A uniform direction, and a uniform point of the disk across it: every line through the
+        // sphere is as likely as any other.
+        Random random(seed, stream::lines + first + k);
+        glm::dvec3 direction = uniform_direction(random), x, y;
+        frame_across(direction, x, y);
+        if (directions)
+            directions->push_back(direction);
+        double r = sphere.radius * std::sqrt(random.uniform()), angle = 2 * pi * random.uniform();
+        glm::dvec3 across = r * std::cos(angle) * x + r * std::sin(angle) * y;
+        double half = 1.001 * sphere.radius;
+        rays.all(sphere.centre + across - half * direction, direction, 2 * half, hits);
+        for (const SurfaceHit& crossing : hits) {
+            const SurfaceGrid& grid = patches.grids[crossing.surface];
+            Shape shape = scene.surfaces[crossing.surface].shape();
+            std::uint32_t cell = cell_at(shape, grid.nu, grid.nv, crossing.u, crossing.v);
+            std::uint32_t front = grid.front + cell;
+            std::uint32_t back = grid.back == none ? none : grid.back + cell;
+            // Met from behind: the traveller comes upon the back and leaves the front.
+            lists.hits.push_back({crossing.t, crossing.surface, crossing.back ? back : front,
+                                  crossing.back ? front : back});
+        }
+        lists.start.push_back(static_cast<std::uint32_t>(lists.hits.size()));
+    }
+}
+
+}  // namespace parallux

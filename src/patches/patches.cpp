@@ -1,0 +1,146 @@
+#include "parallux/patches.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "parallux/error.h"
+#include "patches/clusters.h"
+#include "patches/patch_values.h"
+
+namespace parallux {
+
+namespace {
+
+// Sides of a surface that carry patches.
+int sides(const Scene& scene, const Surface& surface) {
+    return scene.materials[surface.material].two_sided ? 2 : 1;
+}
+
+double wanted_size(const Scene& scene, const PatchSettings& settings,
+                   const std::vector<double>& areas) {
+    if (settings.size > 0)
+        return settings.size;
+    bool all_given = std::all_of(scene.surfaces.begin(), scene.surfaces.end(),
+                                 [](const Surface& s) { return s.grid_u && s.grid_v; });
+    if (settings.count == 0 && all_given)
+        return 0;
+    double total = 0;
+    for (std::size_t s = 0; s < areas.size(); ++s)
+        total += areas[s] * sides(scene, scene.surfaces[s]);
+    return std::sqrt(total / static_cast<double>(settings.count ? settings.count : 10000));
+}
+
+// A whole number of cells of about the wanted size along a length.
+std::uint32_t cells(double length, double size) {
+    double n = std::round(length / size);
+    if (n > 1e9)
+        throw Error(Fault::memory, "a patch size of " + std::to_string(size) +
+                                       " m needs more than 2^31 patches; choose a larger one");
+    return n < 1 ? 1u : static_cast<std::uint32_t>(n);
+}
+
+void choose_grid(const Scene& scene, const Surface& surface, double area, double size,
+                 SurfaceGrid& grid) {
+    const glm::dvec3& origin = scene.positions[surface.corner[0]];
+    if (surface.shape() == Shape::triangle) {
+        // n² similar triangles of about size².
+        grid.nu = grid.nv = cells(std::sqrt(area), size);
+    } else {
+        grid.nu = cells(glm::distance(origin, scene.positions[surface.corner[1]]), size);
+        grid.nv = cells(glm::distance(origin, scene.positions[surface.corner_v()]), size);
+    }
+}
+
+}  // namespace
+
+Patches make_patches(const Scene& scene, const PatchSettings& settings) {
+    if (scene.surfaces.empty())
+        throw Error(Fault::input, scene.file.string() + ": nothing with area in the scene");
+    std::vector<double> areas(scene.surfaces.size());
+    for (std::size_t s = 0; s < areas.size(); ++s)
+        areas[s] = surface_area(scene, scene.surfaces[s]);
+
+    Patches patches;
+    patches.bands = scene.bands;
+    patches.size = wanted_size(scene, settings, areas);
+    patches.grids.resize(scene.surfaces.size());
+    bool asked = settings.size > 0 || settings.count > 0;
+
+    // Let surfaces finer than the wanted size share patches.
+    std::vector<std::uint32_t> cluster_of(scene.surfaces.size(), none);
+    if (patches.size > 0 && settings.clusters)
+        patches.clusters = grow_clusters(scene, areas, patches.size, settings.crease, cluster_of);
+
+    // Number the patches surface by surface, fronts before backs.
+    std::vector<SurfaceGrid> of_cluster(patches.clusters);
+    std::uint64_t next = 0;
+    auto number = [&](SurfaceGrid& grid, int side_count, std::uint64_t cell_count) {
+        grid.front = static_cast<std::uint32_t>(next);
+        next += cell_count;
+        if (side_count == 2) {
+            grid.back = static_cast<std::uint32_t>(next);
+            next += cell_count;
+        }
+        if (next > 0x7fffffffull)
+            throw Error(Fault::memory, scene.file.string() +
+                                           ": more than 2^31 patches; choose a larger patch size");
+    };
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        SurfaceGrid& grid = patches.grids[s];
+        if (cluster_of[s] != none) {
+            SurfaceGrid& shared = of_cluster[cluster_of[s]];
+            if (shared.front == none)
+                number(shared, sides(scene, surface), 1);
+            grid = shared;
+            continue;
+        }
+        if (surface.grid_u && surface.grid_v && !asked) {
+            grid.nu = surface.grid_u;
+            grid.nv = surface.grid_v;
+        } else {
+            choose_grid(scene, surface, areas[s], patches.size, grid);
+        }
+        number(grid, sides(scene, surface), static_cast<std::uint64_t>(grid.nu) * grid.nv);
+    }
+
+    set_patch_values(scene, areas, static_cast<std::size_t>(next), patches);
+    return patches;
+}
+
+std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches) {
+    std::vector<PatchPlace> places(patches.count());
+    auto add = [&](std::uint32_t patch, std::uint32_t s, std::uint32_t iu, std::uint32_t iv,
+                   bool back, const glm::dvec3& centre, const glm::dvec3& normal, double weight) {
+        PatchPlace& place = places[patch];
+        if (place.surface == none) {
+            place.surface = s;
+            place.iu = iu;
+            place.iv = iv;
+            place.back = back;
+        }
+        place.centre += weight * centre;
+        place.normal += weight * (back ? -normal : normal);
+    };
+    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        const SurfaceGrid& grid = patches.grids[s];
+        glm::dvec3 normal = surface_normal(scene, surface);
+        double cell = surface_area(scene, surface) / (static_cast<double>(grid.nu) * grid.nv);
+        for_each_cell(surface.shape(), grid, [&](const Cell& c) {
+            glm::dvec3 centre = surface_point(scene, surface, c.centre_u, c.centre_v);
+            add(grid.front + c.index, s, c.iu, c.iv, false, centre, normal,
+                cell / patches.area[grid.front + c.index]);
+            if (grid.back != none)
+                add(grid.back + c.index, s, c.iu, c.iv, true, centre, normal,
+                    cell / patches.area[grid.back + c.index]);
+        });
+    }
+    for (PatchPlace& place : places)
+        place.normal = glm::normalize(place.normal);
+    return places;
+}
+
+}  // namespace parallux

@@ -1,0 +1,142 @@
+#include "solve/global_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "parallel.h"
+
+namespace parallux {
+
+namespace {
+
+// What a line brings from a sky: its cell times π L, spread over the run as emission is.
+SkyQuanta sky_quanta(const Scene& scene, const Plan& plan, const glm::dvec3& direction) {
+    SkyQuanta quanta;
+    Spectrum behind = scene.sky.radiance(-direction), ahead = scene.sky.radiance(direction);
+    double unit = plan.emission_cell * pi / plan.watts_per_quantum;
+    for (std::uint32_t band = 0; band < scene.bands; ++band) {
+        quanta.along[band] = std::llrint(unit * behind[band]);
+        quanta.against[band] = std::llrint(unit * ahead[band]);
+    }
+    return quanta;
+}
+
+// A worker's buffers, kept from tile to tile.
+struct Buffers {
+    std::shared_ptr<Projector::Workspace> workspace = Projector::make_workspace();
+    IntersectionLists lists;
+    std::vector<glm::dvec3> directions;
+    std::vector<SkyQuanta> sky;
+};
+
+class Pass {
+public:
+    Pass(const Scene& scene, const Patches& patches, const RayScene* rays,
+         const SolveSettings& settings, const Plan& plan, const TransferState& state,
+         DeltaBanks& banks)
+        : scene_(scene),
+          patches_(patches),
+          rays_(rays),
+          settings_(settings),
+          plan_(plan),
+          state_(state),
+          banks_(banks),
+          buffers_(plan.threads),
+          lit_(scene.sky.kind != Sky::Kind::dark),
+          projector_(scene, patches) {}
+
+    // Projects the bundles side by side, then follows the tiles of all of them.
+    void bundles(std::uint64_t first, std::uint32_t count) {
+        projections_.resize(std::max<std::size_t>(projections_.size(), count));
+        parallel_for(plan_.threads, count, 1, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t k = begin; k < end; ++k)
+                projector_.project(make_bundle({settings_.seed, plan_.bundles, settings_.directions,
+                                                plan_.spacing},
+                                               first + k),
+                                   projections_[k]);
+        });
+        std::vector<std::size_t> tiles_before(count + 1, 0);
+        for (std::uint32_t k = 0; k < count; ++k)
+            tiles_before[k + 1] = tiles_before[k] + projections_[k].tiles();
+        parallel_for(plan_.threads, tiles_before.back(), 4,
+                     [&](std::size_t begin, std::size_t end, unsigned worker) {
+                         for (std::size_t tile = begin; tile < end; ++tile) {
+                             std::size_t k = static_cast<std::size_t>(
+                                 std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
+                                 tiles_before.begin() - 1);
+                             follow_tile(projections_[k], tile - tiles_before[k], worker);
+                         }
+                     });
+    }
+
+    // Traces independent lines first … first + count - 1 and follows them.
+    void lines(std::uint64_t first, std::uint64_t count) {
+        parallel_for(
+            plan_.threads, count, 256, [&](std::size_t begin, std::size_t end, unsigned worker) {
+                Buffers& buffers = buffers_[worker];
+                trace_lines(*rays_, scene_, patches_, plan_.sphere, settings_.seed, first + begin,
+                            end - begin, buffers.lists, lit_ ? &buffers.directions : nullptr);
+                buffers.sky.clear();
+                for (std::size_t k = 0; lit_ && k < buffers.directions.size(); ++k)
+                    buffers.sky.push_back(sky_quanta(scene_, plan_, buffers.directions[k]));
+                exchange(buffers.lists, state_, settings_.direction, buffers.sky, banks_.of(worker),
+                         banks_.shared(), banks_.totals(worker));
+            });
+    }
+
+private:
+    void follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
+        Buffers& buffers = buffers_[worker];
+        projector_.lists(projection, tile, *buffers.workspace, buffers.lists);
+        buffers.sky.clear();
+        if (lit_)
+            buffers.sky.push_back(sky_quanta(scene_, plan_, projection.bundle.direction));
+        exchange(buffers.lists, state_, settings_.direction, buffers.sky, banks_.of(worker),
+                 banks_.shared(), banks_.totals(worker));
+    }
+
+    const Scene& scene_;
+    const Patches& patches_;
+    const RayScene* rays_;
+    const SolveSettings& settings_;
+    const Plan& plan_;
+    const TransferState& state_;
+    DeltaBanks& banks_;
+    std::vector<Buffers> buffers_;
+    bool lit_;
+    Projector projector_;
+    std::vector<Projection> projections_;
+};
+
+}  // namespace
+
+PassResult global_pass(const Scene& scene, const Patches& patches, const RayScene* rays,
+                       const SolveSettings& settings, const Plan& plan, TransferState& state,
+                       DeltaBanks& banks,
+                       const std::function<bool(std::uint64_t, std::uint64_t)>& go_on) {
+    Pass pass(scene, patches, rays, settings, plan, state, banks);
+    PassResult result;
+    while (result.bundles < plan.bundles) {
+        std::uint32_t batch = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(plan.batch, plan.bundles - result.bundles));
+        share_unshot(state, patches, plan.cell, batch, plan.threads);
+        if (settings.method == Method::bundles) {
+            pass.bundles(result.bundles, batch);
+        } else {
+            std::uint64_t first = result.bundles * plan.lines_a_unit;
+            std::uint64_t end = std::min(plan.lines, first + batch * plan.lines_a_unit);
+            pass.lines(first, end - first);
+        }
+        for (WorkerTotals& totals : banks.all_totals())
+            result.counts += std::exchange(totals.counts, {});
+        merge(state, patches, banks.banks(), banks.all_totals(), plan.threads);
+        result.bundles += batch;
+        if (!go_on(result.bundles, result.counts.lines))
+            break;
+    }
+    result.done = static_cast<double>(result.bundles) / static_cast<double>(plan.bundles);
+    return result;
+}
+
+}  // namespace parallux

@@ -1,0 +1,170 @@
+#include "solve/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallel.h"
+#include "parallux/error.h"
+#include "transfer/delta_banks.h"
+
+namespace parallux {
+
+namespace {
+
+double mean_area(const Patches& patches) {
+    double total = 0;
+    for (double area : patches.area)
+        total += area;
+    return total / static_cast<double>(patches.count());
+}
+
+bool emits(const Patches& patches) {
+    return std::any_of(patches.emission.begin(), patches.emission.end(),
+                       [](float e) { return e > 0; });
+}
+
+// Power that could enter or be emitted, per band, from above.
+double power_bound(const Scene& scene, const Patches& patches, const LineSphere& sphere) {
+    double most = 0;
+    double disc = pi * sphere.radius * sphere.radius;
+    double sky = 0;
+    if (scene.sky.kind != Sky::Kind::dark)
+        for (std::uint32_t band = 0; band < scene.bands; ++band)
+            sky = std::max(sky, sky_bound(scene.sky, band) * pi * 4 * disc);
+    for (std::uint32_t band = 0; band < patches.bands; ++band) {
+        double watts = sky;
+        for (std::size_t patch = 0; patch < patches.count(); ++patch)
+            watts += patches.area[patch] * patches.emission[patch * patches.bands + band];
+        for (const Light& light : scene.lights)
+            watts +=
+                light.intensity[band] * (light.kind == Light::Kind::directional ? disc : 4 * pi);
+        most = std::max(most, watts);
+    }
+    return most;
+}
+
+// A power of two, so that scaling the light or the scene by one changes no bit of the result. All
+// that ever flows, at most P / (1 - ρ), fits 2⁶⁰ quanta.
+double quantum(double power, const Patches& patches) {
+    float highest = 0;
+    for (float reflectance : patches.reflectance)
+        highest = std::max(highest, reflectance);
+    if (power <= 0)
+        return 1;
+    int exponent = 0;
+    std::frexp(power / (1 - static_cast<double>(highest)), &exponent);
+    return std::ldexp(1.0, exponent - 60);
+}
+
+void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& plan) {
+    double disc = pi * plan.sphere.radius * plan.sphere.radius;
+    plan.spacing = settings.line_spacing > 0
+                       ? settings.line_spacing
+                       : std::sqrt(mean_area(patches) / settings.lines_per_patch);
+    plan.cell = plan.spacing * plan.spacing;
+    // A bundle's lines through the sphere, and so the independent lines that stand for it.
+    double lines_a_bundle = disc / plan.cell;
+    if (settings.bundles)
+        plan.bundles = settings.bundles;
+    else if (settings.lines)
+        plan.bundles = static_cast<std::uint64_t>(
+            std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
+    else
+        plan.bundles = 1024;
+    if (settings.method == Method::lines) {
+        plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
+        plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
+        plan.lines_a_unit = std::min(plan.lines_a_unit, plan.lines);
+        plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
+        plan.cell = disc / static_cast<double>(plan.lines_a_unit);
+        // n_i = N A_i / (2 π R²) exits, so that an exit carries 2 π R² E / N.
+        plan.emission_cell = 2 * disc / static_cast<double>(plan.lines);
+    } else {
+        // n_i = D A_i / (2 δ²) exits, so that an exit carries 2 δ² E / D.
+        plan.emission_cell = 2 * plan.cell / static_cast<double>(plan.bundles);
+    }
+    if (settings.direction == Direction::oriented)
+        plan.emission_cell *= 2;
+    plan.batch =
+        settings.batch
+            ? settings.batch
+            : static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
+}
+
+// Direct light must never be what the error stops at: its rays grow with the lines' exits, and no
+// patch of mean size is met by fewer than a hundred.
+std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
+    double area = mean_area(patches) * static_cast<double>(patches.count());
+    double exits = static_cast<double>(plan.bundles) * area / (2 * plan.cell);
+    double rays = std::max(0.5 * exits, 100.0 * static_cast<double>(patches.count()));
+    return static_cast<std::uint64_t>(std::min(rays, 4.0e9));
+}
+
+}  // namespace
+
+double sky_bound(const Sky& sky, std::uint32_t band) {
+    switch (sky.kind) {
+        case Sky::Kind::dark:
+            return 0;
+        case Sky::Kind::uniform:
+            return sky.zenith[band];
+        case Sky::Kind::gradient:
+            return std::max({sky.zenith[band], sky.horizon[band], sky.ground[band]});
+        case Sky::Kind::image:
+            break;
+    }
+    float most = 0;
+    for (const glm::vec3& texel : sky.image.texels)
+        most = std::max({most, texel.x, texel.y, texel.z});
+    return most * sky.scale;
+}
+
+std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
+                               const SolveSettings& settings) {
+    std::uint64_t count = patches.count();
+    std::uint32_t bands = patches.bands;
+    unsigned threads = thread_count(settings.threads);
+    // Patches: area, reflectance, emission. State: four arrays of quanta, the exits. Direct light:
+    // two arrays. Result: radiosity, irradiance, crossings; it exists beside the state.
+    std::uint64_t patch_bytes = 8 + bands * 8 + (bands * 4 * 8 + 8) + bands * 2 * 8 + bands * 8 + 8;
+    std::uint64_t banks = DeltaBanks::count(count, bands, threads, bank_limit(settings));
+    // Surfaces as read, and the ray tracer's own copy of them with its tree.
+    std::uint64_t surface_bytes = sizeof(Surface) + sizeof(SurfaceGrid) + 200;
+    // A projection holds corners, and each surface in a tile or two.
+    std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
+    return count * patch_bytes + banks * DeltaBanks::bytes_a_bank(count, bands) +
+           scene.surfaces.size() * (surface_bytes + projections * 8) +
+           scene.positions.size() * (sizeof(glm::dvec3) + 12 + projections * 12) + (64u << 20);
+}
+
+std::uint64_t bank_limit(const SolveSettings& settings) {
+    std::uint64_t limit = std::uint64_t(1) << 30;
+    return settings.max_memory ? std::min(limit, settings.max_memory / 4) : limit;
+}
+
+Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+    if (settings.bundles && settings.lines)
+        throw Error(Fault::usage, "--bundles and --lines contradict each other; give one");
+    if (!(settings.lines_per_patch > 0) || settings.line_spacing < 0)
+        throw Error(Fault::usage, "lines per patch and line spacing must be positive");
+    Plan plan;
+    plan.threads = thread_count(settings.threads);
+    plan.bank_bytes = bank_limit(settings);
+    if (std::uint64_t need = predicted_memory(scene, patches, settings);
+        settings.max_memory && need > settings.max_memory)
+        throw Error(Fault::memory, "this run needs about " + std::to_string((need >> 20) + 1) +
+                                       " MiB, more than the " +
+                                       std::to_string(settings.max_memory >> 20) +
+                                       " MiB allowed; choose larger patches or raise --max-memory");
+    plan.sphere = line_sphere(scene, settings.sphere_radius);
+    plan.watts_per_quantum = quantum(power_bound(scene, patches, plan.sphere), patches);
+    plan_lines(patches, settings, plan);
+    bool area_lights = emits(patches) && settings.first_shot == FirstShot::rays;
+    plan.first_shot = area_lights || !scene.lights.empty();
+    if (area_lights)
+        plan.first_shot_rays =
+            settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
+    return plan;
+}
+
+}  // namespace parallux

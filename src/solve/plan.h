@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parallux/solve.h"
+
+namespace parallux {
+
+/// The numbers of a run, all settled before it begins.
+struct Plan {
+    unsigned threads = 1;
+    bool first_shot = false;  ///< there is direct light to shoot
+    std::uint64_t first_shot_rays = 0;
+    std::uint64_t bundles = 0;       ///< D; for independent lines, of lines_a_unit each
+    std::uint64_t lines = 0;         ///< independent lines in all
+    std::uint64_t lines_a_unit = 0;  ///< independent lines that stand for one bundle
+    double spacing = 0;              ///< δ, metres
+    double cell = 0;                 ///< area across its direction that one line stands for, m²
+    double emission_cell = 0;        ///< an exit carries emission_cell · E over the whole run
+    std::uint32_t batch = 1;
+    LineSphere sphere;
+    double watts_per_quantum = 1;
+    std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take
+};
+
+/// Settles every number from the scene, its patches and the settings. Throws Fault::usage for
+/// settings that contradict each other, Fault::memory when the run needs more than allowed.
+Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings);
+
+/// The largest radiance of a sky in one band.
+double sky_bound(const Sky& sky, std::uint32_t band);
+
+/// Bytes that all workers' deltas together may take.
+std::uint64_t bank_limit(const SolveSettings& settings);
+
+}  // namespace parallux

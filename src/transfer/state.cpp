@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "parallel.h"
+#include "parallux/transfer.h"
+
+namespace parallux {
+
+namespace {
+constexpr std::size_t patches_a_piece = 4096;
+}
+
+void share_unshot(TransferState& state, const Patches& patches, double cell, std::uint32_t batch,
+                  unsigned threads) {
+    parallel_for(
+        threads, patches.count(), patches_a_piece,
+        [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t patch = begin; patch < end; ++patch) {
+                // E[exits a bundle] · cell / area = |cos θ|: every direction gets its due.
+                double share = std::min(1.0, cell / patches.area[patch]) / batch;
+                for (std::size_t k = patch * state.bands; k < (patch + 1) * state.bands; ++k)
+                    state.quanta[k] = state.emission[k] +
+                                      std::llrint(static_cast<double>(state.unshot[k]) * share);
+            }
+        });
+}
+
+void merge(TransferState& state, const Patches& patches, std::vector<Deltas>& deltas,
+           std::vector<WorkerTotals>& totals, unsigned threads) {
+    std::uint32_t bands = state.bands;
+    std::size_t count = patches.count();
+    std::size_t pieces = (count + patches_a_piece - 1) / patches_a_piece;
+    std::vector<std::int64_t> absorbed(pieces * bands, 0), emitted(pieces * bands, 0);
+    parallel_for(
+        threads, count, patches_a_piece, [&](std::size_t begin, std::size_t end, unsigned) {
+            std::size_t piece = begin / patches_a_piece * bands;
+            for (std::size_t patch = begin; patch < end; ++patch) {
+                std::int64_t exits = 0;
+                std::int64_t received[max_bands] = {};
+                for (Deltas& delta : deltas) {
+                    exits += std::exchange(delta.exits[patch], 0u);
+                    for (std::uint32_t band = 0; band < bands; ++band)
+                        received[band] += std::exchange(delta.received[patch * bands + band], 0);
+                }
+                state.exits[patch] += static_cast<std::uint64_t>(exits);
+                for (std::uint32_t band = 0; band < bands; ++band) {
+                    std::size_t k = patch * bands + band;
+                    std::int64_t reflected =
+                        std::llrint(static_cast<double>(patches.reflectance[k]) *
+                                    static_cast<double>(received[band]));
+                    // The emission was never part of unshot; only the share leaves it.
+                    state.unshot[k] += reflected - exits * (state.quanta[k] - state.emission[k]);
+                    state.received[k] += received[band];
+                    absorbed[piece + band] += received[band] - reflected;
+                    emitted[piece + band] += exits * state.emission[k];
+                }
+            }
+        });
+    for (std::size_t k = 0; k < absorbed.size(); ++k) {
+        state.absorbed[k % bands] += absorbed[k];
+        state.emitted[k % bands] += emitted[k];
+    }
+    for (WorkerTotals& worker : totals)
+        for (std::uint32_t band = 0; band < bands; ++band) {
+            state.escaped[band] += std::exchange(worker.escaped[band], 0);
+            state.sky[band] += std::exchange(worker.sky[band], 0);
+        }
+}
+
+}  // namespace parallux
