@@ -8,6 +8,7 @@
 #include <vector>
 
 #ifndef PARALLUX_STD_THREADS
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -69,8 +70,9 @@ void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
             thread.join();
 #else
         // The arena may offer fewer threads than workers: a worker that starts late finds no
-        // pieces left, which is harmless.
-        tbb::task_arena arena(static_cast<int>(workers));
+        // pieces left, which is harmless. More threads than cores would make TBB warn aloud.
+        int cores = tbb::info::default_concurrency();
+        tbb::task_arena arena(std::min(static_cast<int>(workers), cores));
         arena.execute([&] {
             tbb::parallel_for(
                 0u, workers, [&pieces](unsigned worker) { pieces.work(worker); },

@@ -52,7 +52,7 @@ FirstShot parse_first_shot(const std::string& value) {
     if (value == "exact")
         not_available("--first-shot exact");
     return parse_choice<FirstShot>("--first-shot", value,
-                                   {{"none", FirstShot::none}, {"rays", FirstShot::rays}});
+                                   {{"none", FirstShot::off}, {"rays", FirstShot::rays}});
 }
 
 std::filesystem::path parse_output(const std::string& option, const std::string& value) {
@@ -208,7 +208,7 @@ void settle(SolveOptions& o) {
     };
     contradict(o.quiet && o.progress == ProgressMode::on,
                "--quiet and --progress on exclude each other");
-    contradict(o.solve.first_shot == FirstShot::none && o.solve.first_shot_rays > 0,
+    contradict(o.solve.first_shot == FirstShot::off && o.solve.first_shot_rays > 0,
                "--first-shot-rays needs --first-shot rays");
     contradict(o.solve.method != Method::lines && o.solve.sphere_radius > 0,
                "--sphere-radius needs --method lines");

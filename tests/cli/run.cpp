@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr unsigned longest_run = 60;  // seconds
+constexpr unsigned longest_run = 30;  // seconds
 
 const char* const box_obj = R"(mtllib box.mtl
 v 0 0 0
@@ -120,8 +120,15 @@ Running::Running(const Workplace& place, const std::vector<std::string>& argumen
     }
 }
 
+Running::~Running() {
+    if (process_ > 0) {
+        kill(process_, SIGKILL);
+        waitpid(process_, nullptr, 0);
+    }
+}
+
 void Running::wait_for(const std::string& text) const {
-    for (unsigned tries = 0; tries < longest_run * 100; ++tries) {
+    for (unsigned tries = 0; tries < longest_run * 50; ++tries) {
         if (read_file(err_).find(text) != std::string::npos)
             return;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -136,6 +143,7 @@ void Running::send(int signal) const {
 Outcome Running::wait() {
     int status = 0;
     waitpid(process_, &status, 0);
+    process_ = 0;
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out_ == "-" ? "" : read_file(out_),
             read_file(err_)};
 }

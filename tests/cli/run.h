@@ -33,11 +33,14 @@ struct Outcome {
     bool one_line(const std::string& text) const;
 };
 
-/// A program under way. It is ended after a minute, whatever it does.
+/// A program under way. It is ended after half a minute, whatever it does.
 class Running {
 public:
     Running(const Workplace& place, const std::vector<std::string>& arguments,
             const std::string& standard_output = {});
+    ~Running();
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
     /// Waits until standard error holds the text.
     void wait_for(const std::string& text) const;
     void send(int signal) const;
