@@ -4,11 +4,12 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #ifndef PARALLUX_STD_THREADS
-#include <tbb/info.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -69,10 +70,13 @@ void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
         for (std::thread& thread : team)
             thread.join();
 #else
+        // More threads than cores, for tests, must be allowed first.
+        std::optional<tbb::global_control> allowed;
+        if (workers > std::thread::hardware_concurrency())
+            allowed.emplace(tbb::global_control::max_allowed_parallelism, workers);
         // The arena may offer fewer threads than workers: a worker that starts late finds no
-        // pieces left, which is harmless. More threads than cores would make TBB warn aloud.
-        int cores = tbb::info::default_concurrency();
-        tbb::task_arena arena(std::min(static_cast<int>(workers), cores));
+        // pieces left, which is harmless.
+        tbb::task_arena arena(static_cast<int>(workers));
         arena.execute([&] {
             tbb::parallel_for(
                 0u, workers, [&pieces](unsigned worker) { pieces.work(worker); },

@@ -1,17 +1,17 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
+#include "lines/depth_order.h"
 #include "lines/edge_walk.h"
-#include "parallux/error.h"
+#include "lines/rectangle.h"
 #include "parallux/lines.h"
 
 namespace parallux {
 
 namespace {
-
-constexpr std::int32_t most_lines_a_side = 1 << 18;
 
 // A surface as one tile sees it: (u, v) and depth as affine functions of column and row, and what
 // its two sides are called. Counted from a line near the surface, so that floats suffice.
@@ -42,93 +42,6 @@ struct Projector::Workspace {
 
 std::shared_ptr<Projector::Workspace> Projector::make_workspace() {
     return std::make_shared<Workspace>();
-}
-
-Projector::Projector(const Scene& scene, const Patches& patches)
-    : scene_(scene), patches_(patches) {
-    LineSphere sphere = line_sphere(scene);
-    centre_ = sphere.centre;
-    radius_ = sphere.radius;
-}
-
-namespace {
-
-struct Rectangle {
-    std::int32_t left, right, top, bottom;  // half open, in lines
-};
-
-// The lines that a surface's corners enclose; empty when none.
-Rectangle rectangle_of(const Projection& projection, const Surface& surface) {
-    unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;
-    const Projection::Corner& first = projection.corners[surface.corner[0]];
-    std::int32_t low_x = first.x, high_x = first.x, low_y = first.y, high_y = first.y;
-    for (unsigned k = 1; k < corners; ++k) {
-        const Projection::Corner& corner = projection.corners[surface.corner[k]];
-        low_x = std::min(low_x, corner.x);
-        high_x = std::max(high_x, corner.x);
-        low_y = std::min(low_y, corner.y);
-        high_y = std::max(high_y, corner.y);
-    }
-    return {first_line(low_x), first_line(high_x), first_line(low_y), first_line(high_y)};
-}
-
-}  // namespace
-
-void Projector::project(const Bundle& bundle, Projection& projection) const {
-    if (radius_ / bundle.spacing * 2 > most_lines_a_side)
-        throw Error(Fault::usage, "a line spacing of " + std::to_string(bundle.spacing) +
-                                      " m gives more than 262144 lines across the scene; "
-                                      "choose a larger --line-spacing");
-    projection.bundle = bundle;
-
-    // Snap every corner to the fixed-point grid.
-    projection.corners.resize(scene_.positions.size());
-    glm::dvec3 x = bundle.x * (1 / bundle.spacing), y = bundle.y * (1 / bundle.spacing);
-    std::int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
-    for (std::size_t p = 0; p < scene_.positions.size(); ++p) {
-        glm::dvec3 from_centre = scene_.positions[p] - centre_;
-        Projection::Corner& corner = projection.corners[p];
-        corner.x = static_cast<std::int32_t>(
-            std::lrint((glm::dot(from_centre, x) + bundle.offset_x) * fixed_one));
-        corner.y = static_cast<std::int32_t>(
-            std::lrint((glm::dot(from_centre, y) + bundle.offset_y) * fixed_one));
-        corner.depth = static_cast<float>(glm::dot(from_centre, bundle.direction) / radius_);
-        left = std::min(left, corner.x);
-        right = std::max(right, corner.x);
-        top = std::min(top, corner.y);
-        bottom = std::max(bottom, corner.y);
-    }
-    projection.left = first_line(left);
-    projection.top = first_line(top);
-    projection.columns = std::max(0, first_line(right) - projection.left);
-    projection.rows = std::max(0, first_line(bottom) - projection.top);
-    projection.tiles_x = (projection.columns + tile_side - 1) / tile_side;
-    projection.tiles_y = (projection.rows + tile_side - 1) / tile_side;
-
-    // Sort the surfaces into the tiles that their rectangles touch: count, then place.
-    projection.tile_start.assign(projection.tiles() + 1, 0);
-    auto each_tile = [&](auto&& visit) {
-        for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
-            Rectangle r = rectangle_of(projection, scene_.surfaces[s]);
-            if (r.left >= r.right || r.top >= r.bottom)
-                continue;
-            std::int32_t x0 = (r.left - projection.left) / tile_side;
-            std::int32_t x1 = (r.right - 1 - projection.left) / tile_side;
-            std::int32_t y0 = (r.top - projection.top) / tile_side;
-            std::int32_t y1 = (r.bottom - 1 - projection.top) / tile_side;
-            for (std::int32_t ty = y0; ty <= y1; ++ty)
-                for (std::int32_t tx = x0; tx <= x1; ++tx)
-                    visit(static_cast<std::size_t>(ty) * projection.tiles_x + tx, s);
-        }
-    };
-    each_tile([&](std::size_t tile, std::uint32_t) { ++projection.tile_start[tile + 1]; });
-    for (std::size_t tile = 0; tile < projection.tiles(); ++tile)
-        projection.tile_start[tile + 1] += projection.tile_start[tile];
-    projection.tile_surfaces.resize(projection.tile_start.back());
-    std::vector<std::uint32_t> cursor(projection.tile_start.begin(),
-                                      projection.tile_start.end() - 1);
-    each_tile(
-        [&](std::size_t tile, std::uint32_t s) { projection.tile_surfaces[cursor[tile]++] = s; });
 }
 
 namespace {
@@ -197,19 +110,24 @@ bool before(const Hit& a, const Hit& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface;
 }
 
-void sort_hits(Hit* begin, Hit* end) {
+// Sorts a list and returns the smallest step of depth in it.
+float sort_hits(Hit* begin, Hit* end) {
+    float smallest = std::numeric_limits<float>::infinity();
     // Lists are mostly 2 to 4 long.
     if (end - begin > 24) {
         std::sort(begin, end, before);
-        return;
+    } else {
+        for (Hit* k = begin + 1; k < end; ++k) {
+            Hit hit = *k;
+            Hit* place = k;
+            for (; place > begin && before(hit, place[-1]); --place)
+                *place = place[-1];
+            *place = hit;
+        }
     }
-    for (Hit* k = begin + 1; k < end; ++k) {
-        Hit hit = *k;
-        Hit* place = k;
-        for (; place > begin && before(hit, place[-1]); --place)
-            *place = place[-1];
-        *place = hit;
-    }
+    for (Hit* k = begin + 1; k < end; ++k)
+        smallest = std::min(smallest, k->depth - k[-1].depth);
+    return smallest;
 }
 
 // The runs of a surface's lines in a tile, row by row: in each row the edges' columns, sorted,
@@ -294,9 +212,16 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
             lists.hits[cursor[column]++] = hit_at(view, left + column, top + span.row);
     }
 
-    // Order each list.
-    for (std::size_t line = 0; line < lines; ++line)
-        sort_hits(lists.hits.data() + lists.start[line], lists.hits.data() + lists.start[line + 1]);
+    // Order each list; where hits all but coincide, look closer.
+    float tie = near_tie(projection.bundle.spacing, radius_);
+    for (std::size_t line = 0; line < lines; ++line) {
+        Hit* begin = lists.hits.data() + lists.start[line];
+        Hit* end = lists.hits.data() + lists.start[line + 1];
+        if (sort_hits(begin, end) < tie)
+            order_near_ties(projection, scene_, patches_, centre_, radius_,
+                            left + static_cast<std::int32_t>(line) % columns,
+                            top + static_cast<std::int32_t>(line) / columns, begin, end);
+    }
 }
 
 }  // namespace parallux

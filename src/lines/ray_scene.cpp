@@ -6,9 +6,11 @@
 
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
+#include <tbb/task_arena.h>
 #include <xmmintrin.h>
 #include <glm/geometric.hpp>
 
+#include "parallel.h"
 #include "parallux/error.h"
 
 namespace parallux {
@@ -149,8 +151,7 @@ struct RayScene::Data {
 };
 
 RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_unique<Data>()) {
-    std::string config = threads ? "threads=" + std::to_string(threads) : "";
-    data_->device = rtcNewDevice(config.c_str());
+    data_->device = rtcNewDevice(nullptr);
     if (!data_->device)
         throw Error(Fault::internal, "Embree cannot start on this machine");
     Bounds bounds = scene_bounds(scene);
@@ -160,7 +161,10 @@ RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_uniqu
     rtcSetSceneBuildQuality(data_->scene, RTC_BUILD_QUALITY_MEDIUM);
     data_->add(scene, 0);
     data_->add(scene, 1);
-    rtcCommitScene(data_->scene);
+    // Built inside an arena of so many threads; Embree's own setting would bind the whole process.
+    unsigned workers = std::min(thread_count(threads), thread_count(0));
+    tbb::task_arena arena(static_cast<int>(workers));
+    arena.execute([&] { rtcCommitScene(data_->scene); });
     if (RTCError error = rtcGetDeviceError(data_->device); error != RTC_ERROR_NONE)
         throw Error(error == RTC_ERROR_OUT_OF_MEMORY ? Fault::memory : Fault::internal,
                     "Embree cannot build the scene (error " + std::to_string(error) + ")");

@@ -34,11 +34,12 @@ std::uint32_t owen(std::uint32_t x, std::uint32_t seed) {
 }  // namespace
 
 Sobol::Sobol(std::uint64_t seed) {
+    std::uint32_t matrix[dimensions][32];
     for (unsigned bit = 0; bit < 32; ++bit)
-        matrix_[0][bit] = 1u << (31 - bit);
+        matrix[0][bit] = 1u << (31 - bit);
     for (unsigned d = 1; d < dimensions; ++d) {
         const Primitive& p = primitives[d - 1];
-        std::array<std::uint32_t, 32>& v = matrix_[d];
+        std::uint32_t* v = matrix[d];
         for (unsigned bit = 0; bit < 32; ++bit) {
             if (bit < p.degree) {
                 v[bit] = p.first[bit] << (31 - bit);
@@ -50,6 +51,15 @@ Sobol::Sobol(std::uint64_t seed) {
                     v[bit] ^= v[bit - k];
         }
     }
+    for (unsigned byte = 0; byte < 4; ++byte)
+        for (unsigned value = 0; value < 256; ++value)
+            for (unsigned d = 0; d < dimensions; ++d) {
+                std::uint32_t sum = 0;
+                for (unsigned bit = 0; bit < 8; ++bit)
+                    if ((value >> bit) & 1)
+                        sum ^= matrix[d][8 * byte + bit];
+                bytes_[byte][value][d] = sum;
+            }
     Random random(seed, stream::first_shot);
     for (std::uint32_t& s : scramble_)
         s = static_cast<std::uint32_t>(random.bits() >> 32);
@@ -58,13 +68,8 @@ Sobol::Sobol(std::uint64_t seed) {
 std::array<double, Sobol::dimensions> Sobol::point(std::uint32_t index) const {
     std::array<double, dimensions> p;
     for (unsigned d = 0; d < dimensions; ++d) {
-        std::uint32_t x = 0;
-        for (unsigned bit = 0; (index >> bit) != 0; ++bit) {
-            if ((index >> bit) & 1)
-                x ^= matrix_[d][bit];
-            if (bit == 31)
-                break;
-        }
+        std::uint32_t x = bytes_[0][index & 255][d] ^ bytes_[1][(index >> 8) & 255][d] ^
+                          bytes_[2][(index >> 16) & 255][d] ^ bytes_[3][index >> 24][d];
         p[d] = owen(x, scramble_[d]) * 0x1p-32;
     }
     return p;

@@ -20,7 +20,8 @@ public:
     std::array<double, dimensions> point(std::uint32_t index) const;
 
 private:
-    std::array<std::array<std::uint32_t, 32>, dimensions> matrix_;
+    // What each value of each byte of the index adds.
+    std::array<std::array<std::array<std::uint32_t, dimensions>, 256>, 4> bytes_;
     std::array<std::uint32_t, dimensions> scramble_;
 };
 

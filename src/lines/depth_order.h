@@ -1,0 +1,21 @@
+#pragma once
+
+#include "parallux/lines.h"
+
+namespace parallux {
+
+/// Puts right what rounding may have turned: hits of one line that lie closer together than the
+/// snapping could move them are ordered again. Faces that share a corner by the exact depth of
+/// their snapped corners, in which two faces meet along their common edge; others, which then lie
+/// in one place, so that the one met from behind comes first (a solid that stands on a floor: the
+/// gap is between them). `begin` … `end` are sorted by depth, then surface.
+void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
+                     const glm::dvec3& centre, double radius, std::int32_t column, std::int32_t row,
+                     Hit* begin, Hit* end);
+
+/// Depths closer than this, in radii, are near ties: an eighth of a line spacing.
+inline float near_tie(double spacing, double radius) {
+    return static_cast<float>(0.125 * spacing / radius);
+}
+
+}  // namespace parallux

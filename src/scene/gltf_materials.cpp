@@ -1,0 +1,168 @@
+#include "scene/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/input.h"
+
+namespace parallux {
+namespace {
+
+std::optional<JsonView> extension(const JsonView& json, const char* name) {
+    auto all = json.find("extensions");
+    return all ? all->find(name) : std::nullopt;
+}
+
+glm::vec2 vec2_or(const JsonView& json, const char* key, glm::vec2 otherwise) {
+    auto found = json.find(key);
+    if (!found)
+        return otherwise;
+    if (found->size() != 2)
+        found->fail("must have two numbers");
+    return {found->at(std::size_t(0)).number(-1e6, 1e6), found->at(1).number(-1e6, 1e6)};
+}
+
+}  // namespace
+
+glm::vec2 UvSource::apply(glm::vec2 uv) const {
+    uv *= scale;
+    float c = std::cos(rotation), s = std::sin(rotation);
+    return offset + glm::vec2(c * uv.x + s * uv.y, c * uv.y - s * uv.x);
+}
+
+GltfMaterials::GltfMaterials(GltfDocument& document, SceneBuilder& builder)
+    : document_(document), builder_(builder), textures_(builder.scene()) {
+}
+
+const GltfMaterial& GltfMaterials::of(const JsonView& primitive) {
+    auto reference = primitive.find("material");
+    if (!reference) {
+        auto [entry, is_new] = known_.try_emplace(none);
+        if (is_new)
+            entry->second.index =
+                add_material(builder_.scene(), default_material(builder_.settings(), false));
+        return entry->second;
+    }
+    JsonView json = document_.element("materials", *reference);
+    std::uint64_t index = reference->count(none);
+    if (auto found = known_.find(index); found != known_.end())
+        return found->second;
+    std::string name = name_or(json.text_or("name", ""), "material " + std::to_string(index));
+    return known_[index] = read(json, name);
+}
+
+GltfMaterial GltfMaterials::read(const JsonView& json, const std::string& name) {
+    GltfMaterial result;
+    Material material;
+    material.name = name;
+    material.two_sided = json.boolean_or("doubleSided", false);
+    read_base_colour(json, material, result);
+    read_emission(json, material, result);
+    if (extension(json, "KHR_materials_transmission"))
+        clear_.note(name);
+    result.index = add_material(builder_.scene(), std::move(material));
+    return result;
+}
+
+void GltfMaterials::read_base_colour(const JsonView& json, Material& material,
+                                     GltfMaterial& result) {
+    double factor[4] = {1, 1, 1, 1}, metallic = 1;
+    if (auto pbr = json.find("pbrMetallicRoughness")) {
+        if (auto colour = pbr->find("baseColorFactor")) {
+            if (colour->size() != 4)
+                colour->fail("must have four numbers");
+            for (std::size_t c = 0; c < 4; ++c)
+                factor[c] = colour->at(c).number(0, 1 + 1e-6);
+        }
+        metallic = pbr->number_or("metallicFactor", 1);
+        if (auto texture = pbr->find("baseColorTexture")) {
+            UvSource source;
+            material.reflectance_texture = read_texture(*texture, source);
+            if (material.reflectance_texture != none)
+                result.uv0 = source;
+        }
+    }
+    bool white = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+        white = white || factor[c] > max_reflectance;
+        material.reflectance[c] = std::min(static_cast<float>(factor[c]), max_reflectance);
+    }
+    if (white && material.reflectance_texture == none)
+        white_.note(material.name);
+    if (metallic > 0)
+        metals_.note(material.name);
+    if (json.text_or("alphaMode", "OPAQUE") != "OPAQUE" && factor[3] < 0.5)
+        transparent_.note(material.name);
+}
+
+void GltfMaterials::read_emission(const JsonView& json, Material& material, GltfMaterial& result) {
+    double strength = 1;
+    if (auto strong = extension(json, "KHR_materials_emissive_strength"))
+        if (auto value = strong->find("emissiveStrength"))
+            strength = value->number(0, 1e15);
+    bool emits = false;
+    if (auto factor = json.find("emissiveFactor")) {
+        if (factor->size() != 3)
+            factor->fail("must have three numbers");
+        for (std::size_t c = 0; c < 3; ++c) {
+            material.emission[c] =
+                static_cast<float>(pi * factor->at(c).number(0, 1e15) * strength);
+            emits = emits || material.emission[c] > 0;
+        }
+    }
+    auto texture = json.find("emissiveTexture");
+    if (!emits || !texture)  // without a factor the texture is multiplied by 0
+        return;
+    UvSource source;
+    material.emission_texture = read_texture(*texture, source);
+    if (material.emission_texture == none)
+        return;
+    bool shared = result.uv0 && *result.uv0 == source;
+    material.emission_uv = shared ? 0 : 1;
+    if (!shared)
+        result.uv1 = source;
+}
+
+std::uint32_t GltfMaterials::read_texture(const JsonView& info, UvSource& source) {
+    source.set = info.count_or("texCoord", 0, 255);
+    if (auto transform = extension(info, "KHR_texture_transform")) {
+        source.set = transform->count_or("texCoord", source.set, 255);
+        source.offset = vec2_or(*transform, "offset", glm::vec2(0));
+        source.scale = vec2_or(*transform, "scale", glm::vec2(1));
+        source.rotation = static_cast<float>(transform->number_or("rotation", 0));
+    }
+    JsonView texture = document_.element("textures", info.at("index"));
+    if (auto sampler = texture.find("sampler")) {
+        JsonView json = document_.element("samplers", *sampler);
+        for (const char* wrap : {"wrapS", "wrapT"})
+            if (json.count_or(wrap, 10497, 65535) != 10497)
+                clamped_.note(json.path());
+    }
+    auto reference = texture.find("source");
+    if (!reference) {
+        builder_.scene().warnings.push_back(printable(texture.path()) +
+                                            ": a texture without a picture; its factor alone is "
+                                            "used");
+        return none;
+    }
+    JsonView image = document_.element("images", *reference);
+    if (auto uri = image.find("uri")) {
+        if (!is_data_uri(uri->text()))
+            return textures_.read(uri->path(), uri->text());
+        return textures_.read_bytes(image.path(), image.path(),
+                                    decode_data_uri(image.file(), uri->path(), uri->text()));
+    }
+    std::string bytes(document_.view_bytes(image.at("bufferView")));
+    return textures_.read_bytes(image.path(), image.path(), bytes);
+}
+
+void GltfMaterials::finish() {
+    Scene& scene = builder_.scene();
+    metals_.warn(scene, "materials", "are metallic (glTF's default) and taken as diffuse");
+    clear_.warn(scene, "materials", "transmit light and are taken as opaque and diffuse");
+    transparent_.warn(scene, "materials", "are mostly transparent and taken as opaque");
+    white_.warn(scene, "materials", "have reflectance 1 and are taken as 0.999");
+    clamped_.warn(scene, "samplers", "do not repeat; their textures repeat here");
+}
+
+}  // namespace parallux
