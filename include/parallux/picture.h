@@ -25,8 +25,10 @@ struct PictureSettings {
 /// Layers of one picture, row 0 at the top, `width * height` pixels; per band values lie together.
 struct Picture {
     std::uint32_t width = 0, height = 0, bands = 0;
-    std::vector<float> radiance;    ///< per band, W/(m² sr): B/π of what is seen, or the sky
-    std::vector<float> alpha;       ///< share of the samples that met a surface
+    std::vector<float> radiance;  ///< per band, W/(m² sr): B/π of what is seen, or the sky
+    std::vector<float> display;   ///< radiance averaged for the screen: bright samples weigh less,
+                                  ///< so that the edges of lights stay smooth; PNG only
+    std::vector<float> alpha;     ///< share of the samples that met a surface
     std::vector<float> irradiance;  ///< per band, W/m², interpolated
     std::vector<float> albedo;      ///< per band
     std::vector<float> normal;      ///< 3 a pixel, world, towards the camera

@@ -1,0 +1,148 @@
+#include <cstdlib>
+#include <ctime>
+#include <exception>
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "output/output_file.h"
+#include "output/tone.h"
+#include "parallux/error.h"
+#include "parallux/picture.h"
+
+namespace parallux {
+
+namespace {
+
+// A picture as a library call wants it: `channels` interleaved, with what the file says of itself.
+struct Image {
+    OIIO::ImageSpec spec;
+    std::vector<float> linear;          // EXR
+    std::vector<std::uint8_t> encoded;  // PNG
+};
+
+// One moment for all files, so that equal runs give equal bytes.
+std::string date_time() {
+    std::time_t seconds = 0;
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH"))
+        seconds = static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10));
+    std::tm parts{};
+    char text[32] = "1970:01:01 00:00:00";
+    if (gmtime_r(&seconds, &parts))
+        std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &parts);
+    return text;
+}
+
+std::string band_channel(std::uint32_t bands, std::uint32_t band) {
+    return bands == 3 ? std::string(1, "RGB"[band]) : std::to_string(band);
+}
+
+// A layer's values and the names of its channels.
+struct Layer {
+    const std::vector<float>* values;
+    std::vector<std::string> channels;
+};
+
+std::vector<Layer> layers(const Picture& picture) {
+    auto per_band = [&](const std::string& prefix) {
+        std::vector<std::string> names;
+        for (std::uint32_t b = 0; b < picture.bands; ++b)
+            names.push_back(prefix + band_channel(picture.bands, b));
+        return names;
+    };
+    std::vector<Layer> result = {{&picture.radiance, per_band("")},
+                                 {&picture.alpha, {"A"}},
+                                 {&picture.irradiance, per_band("irradiance.")},
+                                 {&picture.albedo, per_band("albedo.")},
+                                 {&picture.normal, {"normal.X", "normal.Y", "normal.Z"}},
+                                 {&picture.patch, {"patch.id"}}};
+    if (!picture.stderror.empty())
+        result.push_back({&picture.stderror, per_band("stderr.")});
+    return result;
+}
+
+Image linear_image(const Picture& picture) {
+    Image image;
+    std::vector<Layer> all = layers(picture);
+    std::vector<std::string> names;
+    for (const Layer& layer : all)
+        names.insert(names.end(), layer.channels.begin(), layer.channels.end());
+    image.spec = OIIO::ImageSpec(static_cast<int>(picture.width), static_cast<int>(picture.height),
+                                 static_cast<int>(names.size()), OIIO::TypeDesc::FLOAT);
+    image.spec.channelnames = names;
+    image.spec.alpha_channel = static_cast<int>(picture.bands);
+    image.spec.attribute("compression", "zip");
+    image.spec.attribute("oiio:ColorSpace", "Linear");
+    // Interleave the layers.
+    std::size_t pixels = std::size_t(picture.width) * picture.height;
+    image.linear.resize(pixels * names.size());
+    std::size_t at = 0;
+    for (const Layer& layer : all) {
+        std::size_t n = layer.channels.size();
+        for (std::size_t i = 0; i < pixels; ++i)
+            for (std::size_t c = 0; c < n; ++c)
+                image.linear[i * names.size() + at + c] = (*layer.values)[i * n + c];
+        at += n;
+    }
+    return image;
+}
+
+Image screen_image(const Picture& picture, const PictureSettings& settings) {
+    Image image;
+    image.spec = OIIO::ImageSpec(static_cast<int>(picture.width), static_cast<int>(picture.height),
+                                 3, OIIO::TypeDesc::UINT8);
+    image.spec.attribute("oiio:ColorSpace", "sRGB");
+    image.encoded = screen_pixels(picture, settings);
+    return image;
+}
+
+// The file's bytes, made in memory: only OutputFile touches the disk, and notices what fails there.
+std::vector<unsigned char> encode(const std::string& ending, Image& image) {
+    image.spec.attribute("DateTime", date_time());
+    image.spec.attribute("Software", "Parallux");
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    std::unique_ptr<OIIO::ImageOutput> writer = OIIO::ImageOutput::create("picture" + ending);
+    if (!writer)
+        throw std::runtime_error(OIIO::geterror());
+    void* proxy = &memory;
+    image.spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    bool linear = !image.linear.empty();
+    const void* pixels = linear ? static_cast<const void*>(image.linear.data())
+                                : static_cast<const void*>(image.encoded.data());
+    if (!writer->open("picture" + ending, image.spec) ||
+        !writer->write_image(linear ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8, pixels) ||
+        !writer->close())
+        throw std::runtime_error(writer->geterror());
+    return bytes;
+}
+
+}  // namespace
+
+void write_picture(const std::filesystem::path& file, const Picture& picture,
+                   const PictureSettings& settings) {
+    std::string ending = file.extension().string();
+    for (char& c : ending)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (ending != ".exr" && ending != ".png")
+        throw Error(Fault::output, file.string() + ": cannot write '" + ending +
+                                       "' pictures; name the file .exr or .png");
+    if (picture.width == 0 || picture.height == 0)
+        throw Error(Fault::output, file.string() + ": cannot write a picture without pixels");
+    OutputFile output(file);
+    std::vector<unsigned char> bytes;
+    try {
+        Image image = ending == ".exr" ? linear_image(picture) : screen_image(picture, settings);
+        bytes = encode(ending, image);
+    } catch (const std::bad_alloc&) {
+        throw Error(Fault::memory, file.string() + ": no memory to encode the picture");
+    } catch (const std::exception& failure) {
+        throw Error(Fault::output, file.string() + ": cannot write: " + failure.what());
+    }
+    output.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    output.commit();
+}
+
+}  // namespace parallux
