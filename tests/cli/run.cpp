@@ -144,8 +144,8 @@ Outcome Running::wait() {
     int status = 0;
     waitpid(process_, &status, 0);
     process_ = 0;
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out_ == "-" ? "" : read_file(out_),
-            read_file(err_)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            fs::is_regular_file(out_) ? read_file(out_) : "", read_file(err_)};
 }
 
 Outcome run(const Workplace& place, const std::vector<std::string>& arguments,
