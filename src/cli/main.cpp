@@ -1,0 +1,76 @@
+#include <functional>
+
+#include "cli/info.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "cli/summary.h"
+#include "cli/terminal.h"
+
+using namespace parallux;
+
+namespace {
+
+constexpr int exit_above_tolerance = 1;
+
+int solve_scene(const SolveOptions& options) {
+    check_outputs(options);
+    Scene scene = load_scene(options.scene, options.load);
+    check_camera(options, scene);
+    const double loaded = seconds_since_start();
+    Patches patches = make_patches(scene, options.patches);
+    const double divided = seconds_since_start();
+
+    keep_results();
+    ProgressReport report(options.progress);
+    Solution solution = solve(scene, patches, options.solve, std::ref(report));
+    report.end();
+    solution.seconds.load = loaded;
+    solution.seconds.patches = divided - loaded;
+
+    write_outputs(options, scene, patches, solution);
+    if (!options.quiet)
+        tell_summary(options, scene, patches, solution);
+    if (!interrupted())
+        return 0;
+    complain("parallux: interrupted; the outputs hold what was done until then");
+    return exit_interrupted;
+}
+
+int compare(const CompareOptions& options) {
+    const Comparison comparison = compare_tables(options.a, options.b);
+    print(describe_comparison(comparison));
+    if (options.tolerance < 0 || comparison.relative_rms <= options.tolerance)
+        return 0;
+    complain("parallux: " + options.a.string() + ": the relative RMS is above the tolerance");
+    return exit_above_tolerance;
+}
+
+int run(const Options& options) {
+    switch (options.command) {
+        case Command::info:
+            print(describe_scene(load_scene(options.info.scene, options.info.load),
+                                 options.info.json));
+            return 0;
+        case Command::solve:
+            return solve_scene(options.solve);
+        case Command::compare:
+            return compare(options.compare);
+        case Command::print:
+            print(options.text);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        guard_standard_streams();
+        watch_signals();
+        return run(parse_options(argc, argv));
+    } catch (...) {
+        return report_failure();
+    }
+}

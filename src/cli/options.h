@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "parallux/parallux.h"
+
+// What the user typed, checked as far as it can be without the scene.
+
+namespace parallux {
+
+enum class Command { print, info, solve, compare };
+enum class ProgressMode { automatic, on, off, json };
+
+struct InfoOptions {
+    std::filesystem::path scene;
+    LoadSettings load;
+    bool json = false;
+};
+
+struct SolveOptions {
+    std::filesystem::path scene;
+    LoadSettings load;
+    PatchSettings patches;
+    SolveSettings solve;
+    PictureSettings picture;
+    std::string camera;  ///< name or index; "": the first
+    std::vector<std::filesystem::path> images;
+    std::filesystem::path table, stats;  ///< empty: not wanted
+    ProgressMode progress = ProgressMode::automatic;
+    bool quiet = false;
+
+    /// Every file to be written.
+    std::vector<std::filesystem::path> outputs() const;
+};
+
+struct CompareOptions {
+    std::filesystem::path a, b;
+    double tolerance = -1;  ///< of the relative RMS; < 0: none
+};
+
+struct Options {
+    Command command = Command::print;
+    std::string text;  ///< to print: help or version
+    InfoOptions info;
+    SolveOptions solve;
+    CompareOptions compare;
+};
+
+/// Reads the command line. Lengths are scaled to metres. Throws Fault::usage naming the option and
+/// the value.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace parallux

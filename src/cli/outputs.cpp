@@ -1,0 +1,104 @@
+#include "cli/outputs.h"
+
+#include <chrono>
+#include <exception>
+#include <functional>
+
+#include "cli/interrupt.h"
+#include "output/output_file.h"
+
+namespace parallux {
+
+namespace {
+
+const auto start = std::chrono::steady_clock::now();
+
+/// True when both names mean one file, whether it exists or not.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    if (std::filesystem::equivalent(a, b, error) && !error)
+        return true;
+    auto absolute = [](const std::filesystem::path& file) {
+        std::error_code ignored;
+        std::filesystem::path full = std::filesystem::weakly_canonical(file, ignored);
+        return ignored ? file : full;
+    };
+    return absolute(a) == absolute(b);
+}
+
+void write_image(const std::filesystem::path& file, const Picture& picture,
+                 const PictureSettings& settings) {
+    WritingFile guard;
+    write_picture(file, picture, settings);
+}
+
+}  // namespace
+
+double seconds_since_start() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void check_outputs(const SolveOptions& options) {
+    const std::vector<std::filesystem::path> files = options.outputs();
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (same_file(files[i], options.scene))
+            throw Error(Fault::usage,
+                        files[i].string() + ": is the scene itself; choose another output name");
+        for (std::size_t j = 0; j < i; ++j)
+            if (same_file(files[i], files[j]))
+                throw Error(Fault::usage,
+                            files[i].string() + ": is named for two outputs; choose another name");
+    }
+    for (const std::filesystem::path& file : files) {
+        WritingFile guard;
+        check_writable(file);
+    }
+}
+
+void check_camera(const SolveOptions& options, Scene& scene) {
+    if (options.images.empty())
+        return;
+    choose_camera(scene, options.camera);
+    if (scene.cameras.empty())
+        scene.warnings.push_back(
+            "the scene has no camera, so the picture shows all of it from outside or within; add "
+            "cameras to the scene and choose one with --camera NAME or INDEX");
+}
+
+void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                   Solution& solution) {
+    const double before = seconds_since_start();
+    std::exception_ptr failure;
+    auto attempt = [&](const std::function<void()>& write) {
+        try {
+            write();
+        } catch (...) {
+            if (!failure)
+                failure = std::current_exception();
+        }
+    };
+
+    if (!options.table.empty())
+        attempt([&] {
+            WritingFile guard;
+            write_table(options.table, scene, patches, solution);
+        });
+    if (!options.images.empty())
+        attempt([&] {
+            Picture picture = render(scene, patches, solution, choose_camera(scene, options.camera),
+                                     options.picture);
+            for (const std::filesystem::path& file : options.images)
+                attempt([&] { write_image(file, picture, options.picture); });
+        });
+    solution.seconds.total = seconds_since_start();
+    solution.seconds.output = solution.seconds.total - before;
+    if (!options.stats.empty())
+        attempt([&] {
+            WritingFile guard;
+            write_stats(options.stats, scene, patches, options.solve, solution);
+        });
+    if (failure)
+        std::rethrow_exception(failure);
+}
+
+}  // namespace parallux

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "cli/options.h"
+
+namespace parallux {
+
+/// Before anything is computed: every output can be written, no two are the same file, none is the
+/// scene. Throws Fault::usage or Fault::output.
+void check_outputs(const SolveOptions& options);
+
+/// Where a picture is wanted: the camera exists, or a warning says that the scene has none and how
+/// to choose. Throws Fault::usage.
+void check_camera(const SolveOptions& options, Scene& scene);
+
+/// Writes all that is wanted, the statistics last and with the time that the others took. A file
+/// that cannot be written keeps none of the others back; the first failure is thrown at the end.
+void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                   Solution& solution);
+
+/// Measures from the program's start, for Seconds.
+double seconds_since_start();
+
+}  // namespace parallux

@@ -1,0 +1,80 @@
+#include "cli/summary.h"
+
+#include <iomanip>
+#include <numeric>
+#include <sstream>
+
+#include "cli/terminal.h"
+
+namespace parallux {
+
+namespace {
+
+double total(const std::vector<std::int64_t>& quanta) {
+    return std::accumulate(quanta.begin(), quanta.end(), 0.0,
+                           [](double sum, std::int64_t q) { return sum + static_cast<double>(q); });
+}
+
+/// All bands together, as shares of what was emitted.
+std::string energy(const Balance& balance) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    const double emitted = total(balance.emitted);
+    text << std::setprecision(6) << emitted * balance.watts_per_quantum << " W emitted";
+    if (emitted <= 0)
+        return text.str();
+    auto share = [&](const std::vector<std::int64_t>& part, const char* name) {
+        text << ", " << std::setprecision(4) << 100 * total(part) / emitted << " % " << name;
+    };
+    share(balance.absorbed, "absorbed");
+    share(balance.escaped, "escaped");
+    share(balance.unshot, "unshot");
+    text << (total(balance.residual) == 0 ? "; balance exact" : "; balance NOT closed");
+    return text.str();
+}
+
+std::string summary(const SolveOptions& options, const Patches& patches, const Solution& solution) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    const LineCounts& counts = solution.counts;
+    const double lines = static_cast<double>(counts.lines);
+    text << "patches  " << patches.count() << '\n';
+    text << "lines    " << counts.lines;
+    if (solution.bundles > 0)
+        text << " in " << solution.bundles << " bundles";
+    if (solution.seconds.global > 0)
+        text << ", " << std::setprecision(3) << lines / solution.seconds.global / 1e6
+             << " M lines/s on " << solution.threads << " threads";
+    text << '\n';
+    text << "energy   " << energy(solution.energy) << '\n';
+    text << "leaks    " << solution.leaks << '\n';
+    text << "time     " << std::fixed << std::setprecision(2) << solution.seconds.total << " s\n";
+    for (const std::filesystem::path& file : options.outputs())
+        text << "wrote    " << printable(file.string()) << '\n';
+    if (solution.partial)
+        text << "partial  stopped before all lines were done\n";
+    return text.str();
+}
+
+}  // namespace
+
+void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                  const Solution& solution) {
+    print(summary(options, patches, solution));
+    for (const auto* warnings : {&scene.warnings, &solution.warnings})
+        for (const std::string& warning : *warnings)
+            complain("warning: " + warning);
+}
+
+std::string describe_comparison(const Comparison& comparison) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << "patches       " << comparison.patches << '\n'
+         << "RMS           " << comparison.rms << " W/m²\n"
+         << "relative RMS  " << comparison.relative_rms << '\n'
+         << "maximum       " << comparison.maximum << " W/m² at patch " << comparison.maximum_patch
+         << '\n';
+    return text.str();
+}
+
+}  // namespace parallux

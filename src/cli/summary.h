@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "cli/options.h"
+
+namespace parallux {
+
+/// A few lines on standard output on what a solve did, then the warnings on standard error.
+void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                  const Solution& solution);
+
+/// Lines on how two tables differ.
+std::string describe_comparison(const Comparison& comparison);
+
+}  // namespace parallux

@@ -1,0 +1,118 @@
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "output/output_file.h"
+#include "output/table_columns.h"
+#include "parallux/error.h"
+#include "parallux/patches.h"
+#include "parallux/tables.h"
+
+namespace parallux {
+
+std::string band_name(std::uint32_t bands, std::uint32_t band) {
+    return bands == 3 ? std::string(1, "rgb"[band]) : std::to_string(band);
+}
+
+namespace {
+
+// Text of this size goes to the file at once: few system calls, little memory.
+constexpr std::size_t chunk = std::size_t{1} << 20;
+
+/// One row at a time, as text. std::to_chars never asks the locale for its decimal point.
+class Row {
+public:
+    explicit Row(std::string& text) : text_(text) {}
+
+    Row& number(double value) {
+        if (!std::isfinite(value))
+            throw Error(Fault::internal, "a table value is not finite; please report the scene");
+        separate();
+        if (value == 0) {  // common, and never "-0"
+            text_ += '0';
+            return *this;
+        }
+        char digits[32];
+        auto end =
+            std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 9);
+        text_.append(digits, end.ptr);
+        return *this;
+    }
+    Row& index(std::uint64_t value) {
+        separate();
+        char digits[24];
+        text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+        return *this;
+    }
+    /// Quoted as RFC 4180 asks where the text would otherwise break the row.
+    Row& word(std::string_view value) {
+        separate();
+        if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
+            text_ += value;
+            return *this;
+        }
+        text_ += '"';
+        for (char c : value)
+            text_.append(c == '"' ? 2 : 1, c);
+        text_ += '"';
+        return *this;
+    }
+    void end() {
+        text_ += '\n';
+        first_ = true;
+    }
+
+private:
+    void separate() {
+        if (!first_)
+            text_ += ',';
+        first_ = false;
+    }
+
+    std::string& text_;
+    bool first_ = true;
+};
+
+}  // namespace
+
+void write_table(const std::filesystem::path& file, const Scene& scene, const Patches& patches,
+                 const Solution& solution) {
+    const std::size_t bands = solution.bands, values = patches.count() * bands;
+    const bool estimated = !solution.stderror.empty();
+    const std::vector<PatchPlace> places = patch_places(scene, patches);
+    if (patches.bands != bands || solution.radiosity.size() != values ||
+        solution.irradiance.size() != values || (estimated && solution.stderror.size() != values))
+        throw Error(Fault::internal, file.string() + ": the solution is not of these patches");
+
+    OutputFile output(file);
+    std::string text;
+    Row row(text);
+    for (const std::string& name : table_columns(solution.bands))
+        row.word(name);
+    row.end();
+    for (std::size_t patch = 0; patch < patches.count(); ++patch) {
+        const PatchPlace& place = places[patch];
+        const Surface& surface = scene.surfaces.at(place.surface);
+        row.index(patch).index(place.surface);
+        row.word(scene.objects.at(surface.object));
+        row.word(scene.materials.at(surface.material).name);
+        row.index(place.iu).index(place.iv);
+        for (const glm::dvec3& v : {place.centre, place.normal})
+            row.number(v.x).number(v.y).number(v.z);
+        row.number(patches.area[patch]).word(place.back ? "back" : "front");
+        for (std::size_t i = patch * bands; i < (patch + 1) * bands; ++i) {
+            row.number(patches.reflectance[i]).number(patches.emission[i]);
+            row.number(solution.irradiance[i]).number(solution.radiosity[i]);
+            estimated ? row.number(solution.stderror[i]) : row.word("");
+        }
+        row.end();
+        if (text.size() >= chunk) {
+            output.write(text);
+            text.clear();
+        }
+    }
+    output.write(text);
+    output.commit();
+}
+
+}  // namespace parallux

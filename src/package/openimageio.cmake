@@ -1,0 +1,10 @@
+# Debian 12's OpenImageIO target names an OpenCV include folder that is not installed with it.
+foreach(target OpenImageIO::OpenImageIO OpenImageIO::OpenImageIO_Util)
+  if(TARGET ${target})
+    get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+    if(folders)
+      list(FILTER folders EXCLUDE REGEX "opencv")
+      set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${folders}")
+    endif()
+  endif()
+endforeach()

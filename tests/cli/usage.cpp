@@ -1,0 +1,172 @@
+#include <doctest/doctest.h>
+
+#include "cli/options.h"
+#include "cli/run.h"
+
+// What is refused, and how: exit code, one line, nothing left behind. Each case names the planted
+// error that makes it fail. Where there are many cases the parser is asked in place: starting the
+// program takes longer than all of them.
+
+namespace {
+
+/// What parse_options says against `solve box.obj` with more arguments; "" when it takes them.
+std::string refusal(const std::vector<std::string>& more) {
+    std::vector<const char*> arguments = {"parallux", "solve", "box.obj"};
+    for (const std::string& argument : more)
+        arguments.push_back(argument.c_str());
+    try {
+        parallux::parse_options(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const parallux::Error& error) {
+        CHECK(error.fault() == parallux::Fault::usage);
+        return error.what();
+    }
+    return "";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+// Planted: --version printed to standard error, or help that ends with a code.
+TEST_CASE("help and version go to standard output with code 0") {
+    Workplace place;
+    CHECK(run(place, {"--version"}).out == "parallux 0.1.0\n");
+    for (std::vector<std::string> arguments : {std::vector<std::string>{"--help"},
+                                               {"info", "--help"},
+                                               {"solve", "--help"},
+                                               {"compare", "--help"}}) {
+        Outcome outcome = run(place, arguments);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err == "");
+        CHECK(outcome.out.find("Usage: parallux") != std::string::npos);
+    }
+}
+
+// Planted: a parser that reads "-5" into an unsigned number, takes NaN, stops at the first bad
+// character, or that lets one of two contradicting options win.
+TEST_CASE("nonsense is refused with code 2, naming option and value") {
+    Workplace place;
+    struct Case {
+        std::vector<std::string> arguments;
+        std::string named;
+    };
+    const std::vector<Case> cases = {
+        {{"--lines", "-5"}, "--lines -5"},
+        {{"--lines", "0"}, "--lines 0"},
+        {{"--lines", "1e3x"}, "--lines 1e3x"},
+        {{"--lines", "99999999999999999999"}, "--lines 999"},
+        {{"--bundles", "1.5"}, "--bundles 1.5"},
+        {{"--patch-size", "nan"}, "--patch-size nan"},
+        {{"--patch-size", "inf"}, "--patch-size inf"},
+        {{"--patch-size", "0"}, "--patch-size 0"},
+        {{"--patch-size", "-1"}, "--patch-size -1"},
+        {{"--patches", "0"}, "--patches 0"},
+        {{"--lines-per-patch", "-4"}, "--lines-per-patch -4"},
+        {{"--line-spacing", "1e999"}, "--line-spacing 1e999"},
+        {{"--threads", "-1"}, "--threads -1"},
+        {{"--seed", "x"}, "--seed x"},
+        {{"--batch", "0"}, "--batch 0"},
+        {{"--max-memory", "4Q"}, "--max-memory 4Q"},
+        {{"--max-memory", "0"}, "--max-memory 0"},
+        {{"--time-limit", "-1"}, "--time-limit -1"},
+        {{"--reflectance", "1"}, "--reflectance 1"},
+        {{"--scale", "0"}, "--scale 0"},
+        {{"--method", "magic"}, "--method magic"},
+        {{"--direction", ""}, "--direction ''"},
+        {{"--progress", "loud"}, "--progress loud"},
+        {{"--image", "a.jpg"}, "--image a.jpg"},
+        {{"--image", "a.png", "--size", "0x5"}, "--size 0x5"},
+        {{"--image", "a.png", "--size", "99999"}, "--size 99999"},
+        {{"--size", "640x480"}, "--image"},
+        {{"--table", "--stats"}, "--table --stats"},
+        {{"--table"}, "--table"},
+        {{"--seed", "1", "--seed", "2"}, "--seed"},
+        {{"--patch-size", "1", "--patches", "5"}, "--patches"},
+        {{"--bundles", "1", "--lines", "5"}, "--lines"},
+        {{"--line-spacing", "1", "--lines-per-patch", "5"}, "--line-spacing"},
+        {{"--quiet", "--progress", "on"}, "--quiet"},
+        {{"--first-shot", "none", "--first-shot-rays", "5"}, "--first-shot-rays"},
+        {{"--sphere-radius", "9"}, "--sphere-radius"},
+        {{"--unheard-of"}, "--unheard-of"},
+        {{"another.obj"}, "another.obj"},
+    };
+    for (const Case& one : cases) {
+        std::string message = refusal(one.arguments);
+        CAPTURE(one.named);
+        CAPTURE(message);
+        CHECK(contains(message, one.named));
+        CHECK(!contains(message, "\n"));
+    }
+    CHECK(refusal({"--lines", "1e8", "--max-memory", "1.5GiB", "--exposure", "-1", "--image",
+                   "a.png"}) == "");
+    Outcome outcome = run(place, {"solve", place.scene(), "--lines", "-5"});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.one_line("--lines -5"));
+    CHECK(run(place, {}).code == 2);
+    CHECK(run(place, {"solve"}).code == 2);
+    CHECK(run(place, {"compare", "a.csv"}).code == 2);
+    CHECK(place.files().empty());
+}
+
+// Planted: an option that the contract names, accepted and ignored.
+TEST_CASE("what is not there yet is refused, not ignored") {
+    Workplace place;
+    for (std::vector<std::string> arguments : {std::vector<std::string>{"--bake", "x.glb"},
+                                               {"--lightmap", "x.exr"},
+                                               {"--target-error", "0.01"},
+                                               {"--checkpoint", "x"},
+                                               {"--resume", "x"},
+                                               {"--bands", "8"},
+                                               {"--method", "matrix"},
+                                               {"--method", "progressive"},
+                                               {"--method", "particles"},
+                                               {"--first-shot", "exact"}}) {
+        std::string message = refusal(arguments);
+        CAPTURE(message);
+        CHECK(contains(message, arguments[0]));
+        CHECK(contains(message, "is not available in this version"));
+    }
+    CHECK(run(place, {"solve", place.scene(), "--bake", "x.glb"}).code == 2);
+    CHECK(run(place, {"factors", place.scene(), "-o", "f.mtx"}).code == 2);
+}
+
+// Planted: a loader's message passed on with the line breaks of a name in the scene.
+TEST_CASE("an unreadable scene ends with code 3 and one line") {
+    Workplace place;
+    write_file(place / "junk.gltf", "{\"asset\": 7\n\n\x1b[31m}");
+    write_file(place / "empty.obj", "");
+    for (std::string name : {"missing.gltf", "junk.gltf", "empty.obj", "two\nlines.obj"})
+        for (std::string command : {"info", "solve"}) {
+            Outcome outcome = run(place, {command, place / name});
+            CAPTURE(outcome.err);
+            CHECK(outcome.code == 3);
+            CHECK(outcome.one_line(name.substr(0, 3)));
+        }
+}
+
+// Planted: the limit compared after the arrays are there, or never.
+TEST_CASE("a solve above its memory limit does not start: code 5") {
+    Workplace place;
+    Outcome outcome = run(place, {"solve", place.scene(), "--max-memory", "1K", "--table",
+                                  place / "t.csv", "--progress", "off"});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 5);
+    CHECK(outcome.one_line(""));
+    CHECK(place.files().empty());
+}
+
+// Planted: a write to standard output whose result nobody looks at.
+TEST_CASE("standard output that is full or closed ends with code 4") {
+    Workplace place;
+    for (std::string target : {"/dev/full", "-"}) {
+        for (std::vector<std::string> arguments :
+             {std::vector<std::string>{"--help"}, {"--version"}, {"info", place.scene()}}) {
+            Outcome outcome = run(place, arguments, target);
+            CAPTURE(outcome.err);
+            CHECK(outcome.code == 4);
+            CHECK(outcome.one_line("standard output"));
+        }
+    }
+}
