@@ -104,11 +104,18 @@ public:
 
 private:
     // Looks from one to the other a little above the surface, higher where it bulges between them.
+    // A cluster may be rough, so a second look must pass over its bumps; what merely hangs before
+    // it is in the way of that one alone.
     bool separated(const ExposedPatch& a, const ExposedPatch& b, double turn, double distance,
                    double size) const {
         double bulge = 0.25 * distance * std::acos(std::min(turn, 1.0));
-        double rough = a.cluster || b.cluster ? 0.1 * size : 0;
-        double lift = rounding_ + 0.02 * size + bulge + rough;
+        double lift = rounding_ + 0.02 * size + bulge;
+        if (!blocked(a, b, lift))
+            return false;
+        return !(a.cluster || b.cluster) || blocked(a, b, lift + 0.1 * size);
+    }
+
+    bool blocked(const ExposedPatch& a, const ExposedPatch& b, double lift) const {
         return rays_.blocked(a.seen + lift * a.normal, b.seen + lift * b.normal, a.surface,
                              b.surface);
     }

@@ -139,6 +139,17 @@ TEST_CASE("nothing bleeds under a wall that stands across cells") {
     }
 }
 
+// Planted error: a look from one patch to the other so high that a rod before them parts them.
+TEST_CASE("what hangs before a surface does not part it") {
+    Case c;
+    c.material(Spectrum::constant(0.5f));
+    c.quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 16, 16);
+    c.box({-0.02, -2, 0.02}, {0.04, 4, 0.02}, 1);
+    auto linear = [](const dvec3& p, const dvec3&) { return 20 + 3 * p.x - 2 * p.y; };
+    c.divide(linear);
+    CHECK(largest_error(c, Interpolated(c), 0, linear) < 2e-5);
+}
+
 // Planted error: hidden parts of patches counted as dark (share always 1) makes a fringe.
 TEST_CASE("a box on the floor has no dark fringe") {
     double low = 0.337, high = 0.761;
