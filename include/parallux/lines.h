@@ -110,6 +110,9 @@ private:
     double radius_ = 0;
 };
 
+/// Throws Fault::usage when a spacing gives more than 2¹⁸ lines across a scene of this radius.
+void check_spacing(double spacing, double radius);
+
 class RayScene;
 
 /// Independent lines, uniform (isotropic, homogeneous) through a sphere about the scene.

@@ -14,6 +14,13 @@ namespace {
 constexpr std::int32_t most_lines_a_side = 1 << 18;
 }
 
+void check_spacing(double spacing, double radius) {
+    if (radius / spacing * 2 > most_lines_a_side)
+        throw Error(Fault::usage, "a line spacing of " + std::to_string(spacing) +
+                                      " m gives more than 262144 lines across the scene; "
+                                      "choose a larger --line-spacing");
+}
+
 Projector::Projector(const Scene& scene, const Patches& patches)
     : scene_(scene), patches_(patches) {
     LineSphere sphere = line_sphere(scene);
@@ -22,10 +29,7 @@ Projector::Projector(const Scene& scene, const Patches& patches)
 }
 
 void Projector::project(const Bundle& bundle, Projection& projection) const {
-    if (radius_ / bundle.spacing * 2 > most_lines_a_side)
-        throw Error(Fault::usage, "a line spacing of " + std::to_string(bundle.spacing) +
-                                      " m gives more than 262144 lines across the scene; "
-                                      "choose a larger --line-spacing");
+    check_spacing(bundle.spacing, radius_);
     projection.bundle = bundle;
 
     // Snap every corner to the fixed-point grid.

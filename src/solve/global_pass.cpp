@@ -73,7 +73,7 @@ public:
     // Traces independent lines first … first + count - 1 and follows them.
     void lines(std::uint64_t first, std::uint64_t count) {
         parallel_for(
-            plan_.threads, count, 256, [&](std::size_t begin, std::size_t end, unsigned worker) {
+            plan_.threads, count, 1024, [&](std::size_t begin, std::size_t end, unsigned worker) {
                 Buffers& buffers = buffers_[worker];
                 trace_lines(*rays_, scene_, patches_, plan_.sphere, settings_.seed, first + begin,
                             end - begin, buffers.lists, lit_ ? &buffers.directions : nullptr);

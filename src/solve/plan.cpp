@@ -56,12 +56,34 @@ double quantum(double power, const Patches& patches) {
     return std::ldexp(1.0, exponent - 60);
 }
 
+// The last bundles only carry on what the others left. A bundle sends half of what is unshot (a
+// quarter in one direction) and ρ of that comes back: so many that a fiftieth remains, but never
+// more than an eighth of the run.
+std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& settings,
+                              std::uint64_t bundles) {
+    double area = 0, reflecting = 0;
+    for (std::size_t patch = 0; patch < patches.count(); ++patch) {
+        float most = 0;
+        for (std::uint32_t band = 0; band < patches.bands; ++band)
+            most = std::max(most, patches.reflectance[patch * patches.bands + band]);
+        area += patches.area[patch];
+        reflecting += patches.area[patch] * most;
+    }
+    double sent = settings.direction == Direction::oriented ? 0.25 : 0.5;
+    double kept = 1 - (1 - reflecting / area) * sent;
+    double wanted = std::ceil(std::log(0.02) / std::log(kept));
+    return static_cast<std::uint64_t>(
+        std::min(wanted, std::floor(static_cast<double>(bundles) / 8)));
+}
+
 void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& plan) {
     double disc = pi * plan.sphere.radius * plan.sphere.radius;
     plan.spacing = settings.line_spacing > 0
                        ? settings.line_spacing
                        : std::sqrt(mean_area(patches) / settings.lines_per_patch);
     plan.cell = plan.spacing * plan.spacing;
+    if (settings.method == Method::bundles)
+        check_spacing(plan.spacing, plan.sphere.radius);
     // A bundle's lines through the sphere, and so the independent lines that stand for it.
     double lines_a_bundle = disc / plan.cell;
     if (settings.bundles)
@@ -77,18 +99,19 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.lines_a_unit = std::min(plan.lines_a_unit, plan.lines);
         plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
         plan.cell = disc / static_cast<double>(plan.lines_a_unit);
+    }
+    plan.closing = closing_bundles(patches, settings, plan.bundles);
+    std::uint64_t emitting = plan.bundles - plan.closing;
+    if (settings.method == Method::lines) {
         // n_i = N A_i / (2 π R²) exits, so that an exit carries 2 π R² E / N.
-        plan.emission_cell = 2 * disc / static_cast<double>(plan.lines);
+        std::uint64_t lines = std::min(plan.lines, emitting * plan.lines_a_unit);
+        plan.emission_cell = 2 * disc / static_cast<double>(lines);
     } else {
         // n_i = D A_i / (2 δ²) exits, so that an exit carries 2 δ² E / D.
-        plan.emission_cell = 2 * plan.cell / static_cast<double>(plan.bundles);
+        plan.emission_cell = 2 * plan.cell / static_cast<double>(emitting);
     }
     if (settings.direction == Direction::oriented)
         plan.emission_cell *= 2;
-    // The last bundles only carry on what the others left: an exit before them carries more.
-    plan.closing = std::min<std::uint64_t>(plan.bundles / 16, 32);
-    plan.emission_cell *=
-        static_cast<double>(plan.bundles) / static_cast<double>(plan.bundles - plan.closing);
     plan.batch =
         settings.batch
             ? settings.batch

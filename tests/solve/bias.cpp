@@ -79,7 +79,8 @@ TEST_CASE("bundles and independent lines agree on every patch") {
         settings.first_shot = FirstShot::off;
         std::vector<Sample> random = over_seeds(scene, patches, settings, 32, 1000);
         settings.method = Method::lines;
-        settings.bundles = 512;
+        settings.lines_per_patch = 1;
+        settings.bundles = 1024;
         std::vector<Sample> lines = over_seeds(scene, patches, settings, 32, 2000);
         settings.direction = Direction::oriented;
         std::vector<Sample> oriented = over_seeds(scene, patches, settings, 32, 3000);

@@ -25,7 +25,7 @@ TEST_CASE("a furnace glows with E / (1 - rho) all over") {
                 SolveSettings settings;
                 settings.first_shot = shot;
                 settings.method = method;
-                settings.bundles = 512;
+                settings.bundles = 128;
                 std::vector<Sample> samples = over_seeds(scene, patches, settings, 32);
                 double truth = 1 / (1 - static_cast<double>(static_cast<float>(rho)));
                 double bound = sidak_bound(patches.count(), 32);
@@ -121,7 +121,7 @@ TEST_CASE("a cube lit by one face agrees with the dense solution") {
                     settings.first_shot_rays = 20000;
                     settings.method = method;
                     settings.directions = set;
-                    settings.bundles = 4096;
+                    settings.bundles = 1024;
                     std::vector<Sample> samples = over_seeds(scene, patches, settings, 32);
                     double bound = sidak_bound(6 * 16, 32);
                     auto truth = [&](std::size_t k) {

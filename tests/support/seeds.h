@@ -3,21 +3,34 @@
 #include <functional>
 #include <vector>
 
+#include "parallel.h"
 #include "parallux/solve.h"
 #include "support/statistics.h"
 
 namespace parallux::test {
 
-/// Radiosities of each patch over runs with seeds first … first + count - 1.
+/// The radiosities of runs with seeds first … first + count - 1, side by side on all cores.
+inline std::vector<std::vector<float>> runs(const Scene& scene, const Patches& patches,
+                                            SolveSettings settings, int count,
+                                            std::uint64_t first) {
+    std::vector<std::vector<float>> results(static_cast<std::size_t>(count));
+    settings.threads = 1;
+    parallel_for(0, results.size(), 1, [&](std::size_t begin, std::size_t, unsigned) {
+        SolveSettings own = settings;
+        own.seed = first + begin;
+        results[begin] = solve(scene, patches, own).radiosity;
+    });
+    return results;
+}
+
+/// Radiosities of each patch over such runs.
 inline std::vector<Sample> over_seeds(const Scene& scene, const Patches& patches,
-                                      SolveSettings settings, int count, std::uint64_t first = 1) {
+                                      const SolveSettings& settings, int count,
+                                      std::uint64_t first = 1) {
     std::vector<Sample> samples(patches.count() * patches.bands);
-    for (int k = 0; k < count; ++k) {
-        settings.seed = first + static_cast<std::uint64_t>(k);
-        Solution solution = solve(scene, patches, settings);
+    for (const std::vector<float>& run : runs(scene, patches, settings, count, first))
         for (std::size_t patch = 0; patch < samples.size(); ++patch)
-            samples[patch].add(solution.radiosity[patch]);
-    }
+            samples[patch].add(run[patch]);
     return samples;
 }
 
@@ -42,16 +55,14 @@ inline double worst_difference(const std::vector<Sample>& a, const std::vector<S
     return worst;
 }
 
-/// z of the area-weighted means of a set of runs, taken run by run.
-inline Sample mean_over_seeds(const Scene& scene, const Patches& patches, SolveSettings settings,
-                              int count, std::uint64_t first = 1) {
+/// Area-weighted means of the first band, run by run.
+inline Sample mean_over_seeds(const Scene& scene, const Patches& patches,
+                              const SolveSettings& settings, int count, std::uint64_t first = 1) {
     Sample sample;
-    for (int k = 0; k < count; ++k) {
-        settings.seed = first + static_cast<std::uint64_t>(k);
-        Solution solution = solve(scene, patches, settings);
+    for (const std::vector<float>& run : runs(scene, patches, settings, count, first)) {
         double sum = 0, area = 0;
         for (std::size_t patch = 0; patch < patches.count(); ++patch) {
-            sum += patches.area[patch] * solution.radiosity[patch * patches.bands];
+            sum += patches.area[patch] * run[patch * patches.bands];
             area += patches.area[patch];
         }
         sample.add(sum / area);
