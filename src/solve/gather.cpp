@@ -10,24 +10,6 @@ namespace parallux {
 
 namespace {
 
-// The leftover's mean field. Unshot power would be received in the same places as what has been
-// received so far, so that the whole global result is scaled until what was absorbed and escaped
-// is what was to be emitted. Where no light ever came none is added: unlike an even spread over
-// the scene this keeps the outside of a closed room dark.
-std::vector<double> leftover_factors(const TransferState& state,
-                                     const std::vector<std::int64_t>& planned, double done) {
-    std::vector<double> factors(state.bands, 1);
-    for (std::uint32_t band = 0; band < state.bands; ++band) {
-        double finished =
-            static_cast<double>(state.absorbed[band]) + static_cast<double>(state.escaped[band]);
-        double wanted =
-            static_cast<double>(planned[band]) + static_cast<double>(state.sky[band]) / done;
-        if (finished > 0 && wanted > 0)
-            factors[band] = wanted / finished;
-    }
-    return factors;
-}
-
 Balance balance_of(const TransferState& state, const DirectLight& direct,
                    const std::vector<std::int64_t>& planned) {
     Balance balance;
@@ -72,12 +54,13 @@ Solution gather(const Scene& scene, const Patches& patches, const SolveSettings&
     solution.bands = bands;
     solution.radiosity.resize(patches.count() * bands);
     solution.irradiance.resize(patches.count() * bands);
-    std::vector<double> kappa = leftover_factors(state, planned, pass.done);
+    std::vector<double> factors = pass.leftover.factors(state, patches, planned, pass.done);
     for (std::size_t patch = 0; patch < patches.count(); ++patch)
         for (std::uint32_t band = 0; band < bands; ++band) {
             std::size_t k = patch * bands + band;
             double quanta = static_cast<double>(direct.received[k]) +
-                            kappa[band] * static_cast<double>(state.received[k]);
+                            factors[pass.leftover.group(patch) * bands + band] *
+                                static_cast<double>(state.received[k]);
             double irradiance = quanta * state.watts_per_quantum / patches.area[patch];
             solution.irradiance[k] = static_cast<float>(irradiance);
             solution.radiosity[k] = static_cast<float>(

@@ -111,15 +111,32 @@ private:
     std::vector<Projection> projections_;
 };
 
-// Bundles that work from the next snapshot. What is unshot at any time is about two batches' worth,
-// so that batches shrink towards the end: the leftover is then that of single bundles.
-std::uint32_t next_batch(const Plan& plan, std::uint64_t done) {
+// Bundles whose emission is still unshot: how far the reflected light lags behind, in the band
+// where it lags most. Band totals are integers, so that this is the same on any number of threads.
+double lag(const TransferState& state, std::uint64_t done) {
+    double most = 0;
+    for (std::uint32_t band = 0; band < state.bands; ++band) {
+        double sent = static_cast<double>(state.emitted[band] + state.sky[band]);
+        double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
+        if (sent > 0)
+            most = std::max(most, (sent - finished) / sent * static_cast<double>(done));
+    }
+    return most;
+}
+
+// How many bundles work from the next snapshot. A bounce takes about two batches: batches grow to
+// the wanted size while the light keeps up, shrink where it lags by more than 1/32 of the run
+// (white walls, narrow gaps), and shrink towards the end, so that little is left unshot there.
+std::uint32_t next_batch(const Plan& plan, const TransferState& state, std::uint64_t done,
+                         std::uint32_t last) {
     std::uint64_t emitting = plan.bundles - plan.closing;
     if (done >= emitting)
         return 1;
+    bool behind = lag(state, done) > static_cast<double>(plan.bundles) / 32;
+    std::uint64_t wanted = behind ? last / 2 : std::min(2 * last, plan.batch);
     std::uint64_t left = emitting - done;
-    return static_cast<std::uint32_t>(
-        std::min(left, std::clamp<std::uint64_t>(left / 8, 1, plan.batch)));
+    wanted = std::min(wanted, left / 8);
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, left));
 }
 
 }  // namespace
@@ -129,15 +146,19 @@ PassResult global_pass(const Scene& scene, const Patches& patches, const RayScen
                        DeltaBanks& banks,
                        const std::function<bool(std::uint64_t, std::uint64_t)>& go_on) {
     Pass pass(scene, patches, rays, settings, plan, state, banks);
-    PassResult result;
+    PassResult result{Leftover(scene, patches), {}, 0, 0, false};
     std::uint64_t emitting = plan.bundles - plan.closing;
+    std::uint64_t halfway = emitting + plan.closing / 2;
+    std::uint32_t batch = 1;
     while (result.bundles < plan.bundles) {
-        // Emission ends before the lines do.
+        // Emission ends before the lines do; what still goes round tells what is left over.
+        if (plan.closing > 1 && (result.bundles == emitting || result.bundles == halfway))
+            result.leftover.note(state);
         if (result.bundles == emitting) {
             std::fill(state.emission.begin(), state.emission.end(), 0);
             pass.darken_sky();
         }
-        std::uint32_t batch = next_batch(plan, result.bundles);
+        batch = next_batch(plan, state, result.bundles, batch);
         share_unshot(state, patches, plan.cell, batch, plan.threads);
         if (settings.method == Method::bundles) {
             pass.bundles(result.bundles, batch);
@@ -156,6 +177,8 @@ PassResult global_pass(const Scene& scene, const Patches& patches, const RayScen
     result.done =
         std::min(1.0, static_cast<double>(result.bundles) / static_cast<double>(emitting));
     result.whole = result.bundles == plan.bundles;
+    if (result.whole && plan.closing > 1)
+        result.leftover.note(state);
     return result;
 }
 

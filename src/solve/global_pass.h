@@ -4,6 +4,7 @@
 
 #include "lines/ray_scene.h"
 #include "parallux/solve.h"
+#include "solve/leftover.h"
 #include "solve/plan.h"
 #include "transfer/delta_banks.h"
 
@@ -11,6 +12,7 @@ namespace parallux {
 
 /// What the global pass did.
 struct PassResult {
+    Leftover leftover;
     LineCounts counts;
     std::uint64_t bundles = 0;  ///< done of those planned
     double done = 0;            ///< share of the planned emission that was sent
