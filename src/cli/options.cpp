@@ -150,7 +150,7 @@ void add_method(CLI::App& app, SolveSettings& s) {
            [&](auto& v) { s.first_shot = parse_first_shot(v); });
     option("--first-shot-rays", "N", "Rays of the first shot [grows with the lines]",
            [&](auto& v) { s.first_shot_rays = parse_count("--first-shot-rays", v, 1); });
-    auto* bundles = option("--bundles", "D", "Directions of parallel lines [1024]",
+    auto* bundles = option("--bundles", "D", "Directions of parallel lines [4096]",
                            [&](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
     option("--lines", "N", "Lines in all", [&](auto& v) {
         s.lines = parse_count("--lines", v, 1);

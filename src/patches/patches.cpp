@@ -53,18 +53,12 @@ void choose_grid(const Scene& scene, const Surface& surface, double area, double
     }
 }
 
-}  // namespace
-
-Patches make_patches(const Scene& scene, const PatchSettings& settings) {
-    if (scene.surfaces.empty())
-        throw Error(Fault::input, scene.file.string() + ": nothing with area in the scene");
-    std::vector<double> areas(scene.surfaces.size());
-    for (std::size_t s = 0; s < areas.size(); ++s)
-        areas[s] = surface_area(scene, scene.surfaces[s]);
-
+// Divides the scene with cells of about one size (0: as the surfaces say).
+Patches divide(const Scene& scene, const PatchSettings& settings, const std::vector<double>& areas,
+               double size) {
     Patches patches;
     patches.bands = scene.bands;
-    patches.size = wanted_size(scene, settings, areas);
+    patches.size = size;
     patches.grids.resize(scene.surfaces.size());
     bool asked = settings.size > 0 || settings.count > 0;
 
@@ -107,6 +101,27 @@ Patches make_patches(const Scene& scene, const PatchSettings& settings) {
     }
 
     set_patch_values(scene, areas, static_cast<std::size_t>(next), patches);
+    return patches;
+}
+
+}  // namespace
+
+Patches make_patches(const Scene& scene, const PatchSettings& settings) {
+    if (scene.surfaces.empty())
+        throw Error(Fault::input, scene.file.string() + ": nothing with area in the scene");
+    std::vector<double> areas(scene.surfaces.size());
+    for (std::size_t s = 0; s < areas.size(); ++s)
+        areas[s] = surface_area(scene, scene.surfaces[s]);
+    double size = wanted_size(scene, settings, areas);
+    Patches patches = divide(scene, settings, areas, size);
+    // Whole cells and scraps make the count differ from the wanted one: draw nearer.
+    for (int again = 0; again < 3 && settings.count > 0 && settings.size <= 0; ++again) {
+        double ratio = static_cast<double>(patches.count()) / static_cast<double>(settings.count);
+        if (std::abs(ratio - 1) < 0.03)
+            break;
+        size *= std::sqrt(ratio);
+        patches = divide(scene, settings, areas, size);
+    }
     return patches;
 }
 

@@ -92,7 +92,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = static_cast<std::uint64_t>(
             std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
     else
-        plan.bundles = 1024;
+        plan.bundles = 4096;
     if (settings.method == Method::lines) {
         plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
         plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
@@ -118,12 +118,12 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
             : static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
 }
 
-// Direct light must never be what the error stops at: its rays grow with the lines' exits, and no
-// patch of mean size is met by fewer than a hundred.
+// Direct light must never be what the error stops at: its rays, whose sequence is even, grow as an
+// eighth of the lines' exits, and four hundred meet a patch of mean size at least.
 std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
     double area = mean_area(patches) * static_cast<double>(patches.count());
     double exits = static_cast<double>(plan.bundles) * area / (2 * plan.cell);
-    double rays = std::max(0.5 * exits, 100.0 * static_cast<double>(patches.count()));
+    double rays = std::max(0.125 * exits, 400.0 * static_cast<double>(patches.count()));
     return static_cast<std::uint64_t>(std::min(rays, 4.0e9));
 }
 
