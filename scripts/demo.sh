@@ -7,7 +7,7 @@ scripts/install-deps.sh
 cmake --preset release
 cmake --build --preset release --target parallux_program
 mkdir -p out
-build/release/parallux solve scenes/cornell_box.gltf \
+build/release/parallux solve scenes/cornell_box.gltf --patches 20000 \
     --image out/cornell_box.png --stats out/cornell_box.json
 
 echo

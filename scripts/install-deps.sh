@@ -6,10 +6,9 @@ set -euo pipefail
 packages=(
     g++ cmake ninja-build
     libtbb-dev libembree-dev libopenimageio-dev libglm-dev
-    libtinygltf-dev libtinyobjloader-dev nlohmann-json3-dev libcli11-dev
-    libeigen3-dev libhwy-dev
-    doctest-dev libbenchmark-dev
-    clang-format python3
+    nlohmann-json3-dev libcli11-dev
+    doctest-dev
+    clang-format
 )
 
 missing=()
