@@ -15,14 +15,18 @@ using namespace parallux;
 using namespace parallux::test;
 
 TEST_CASE("an edge's columns are those of exact arithmetic") {
-    // Fails when a column is one off, or when walking down loses a remainder (planted: `>=` in
-    // next_row made `>`).
+    // Fails when a column is one off where the edge meets a line exactly, or when walking down
+    // loses a remainder (planted: `rest_ == 0` left out of column; `>=` in next_row made `>`).
     Random random(1, 1);
     for (int trial = 0; trial < 20000; ++trial) {
         auto draw = [&] { return std::int64_t(random.uniform() * 400000) - 200000; };
         std::int64_t x0 = draw(), y0 = draw(), x1 = draw(), y1 = draw();
         if (trial % 3 == 0)
             y1 = y0 + std::int64_t(random.uniform() * 9000);
+        // Ends on lines, and slopes that meet lines on the way.
+        if (trial % 3 == 1)
+            for (std::int64_t* c : {&x0, &y0, &x1, &y1})
+                *c = *c / 20000 * fixed_one;
         std::int32_t start = -30 + std::int32_t(random.uniform() * 60);
         EdgeWalk walk(x0, y0, x1, y1, start);
         if (y0 > y1) {

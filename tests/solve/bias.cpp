@@ -68,8 +68,8 @@ std::vector<double> first_line_takes_everything(const Scene& scene, const Patche
 }  // namespace
 
 TEST_CASE("bundles and independent lines agree on every patch") {
-    // Welch's z over 32 seeds each. Fails when a bundle's share of the unshot energy is not linear,
-    // when a facing is wrong, or when the oriented form forgets that it has half the exits.
+    // Welch's z over 32 seeds each. Fails when a bundle's facing is wrong (planted: front and back
+    // exchanged in the projector), or its frame is not square to the direction.
     for (const Scene& scene : {cube_in_cube(), l_room(grey(0.7), grey(0.7, 1), 3), slot()}) {
         Patches patches = make_patches(scene);
         SolveSettings settings;
@@ -142,7 +142,7 @@ TEST_CASE("few bundles and large batches bring no bias that the leftover does no
 
 TEST_CASE("the error falls with the lines as it must") {
     // Quadratic error of random directions ∝ 1 / bundles: slope -1 ± 0.15 over six powers of two;
-    // the lattice no slower. Fails when bundles repeat each other (planted: index / 2).
+    // the lattice no slower. Fails when bundles repeat each other (planted: index % 256).
     Scene scene = cube_in_cube();
     Patches patches = make_patches(scene);
     SolveSettings settings;
