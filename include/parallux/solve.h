@@ -26,7 +26,7 @@ struct SolveSettings {
     std::uint64_t lines = 0;            ///< wanted total; 0: from `bundles`
     double line_spacing = 0;            ///< δ, metres; 0: from lines_per_patch
     double lines_per_patch = 4;         ///< c: δ² = mean patch area / c
-    std::uint32_t batch = 0;            ///< bundles from one snapshot; 0: up to min(16, bundles / 64)
+    std::uint32_t batch = 0;  ///< bundles from one snapshot; 0: up to min(16, bundles / 64)
     DirectionSet directions = DirectionSet::lattice;
     std::uint64_t seed = 1;
     unsigned threads = 0;          ///< 0: all

@@ -16,7 +16,8 @@ using namespace parallux::test;
 
 TEST_CASE("an edge's columns are those of exact arithmetic") {
     // Fails when a column is one off where the edge meets a line exactly, or when walking down
-    // loses a remainder (planted: `rest_ == 0` left out of column; `>=` in next_row made `>`).
+    // loses a remainder (planted: `rest_ == 0` left out of column; `++whole_` left
+    // out of next_row).
     Random random(1, 1);
     for (int trial = 0; trial < 20000; ++trial) {
         auto draw = [&] { return std::int64_t(random.uniform() * 400000) - 200000; };
@@ -94,8 +95,8 @@ Scene crowded_room(bool standing = true) {
 }  // namespace
 
 TEST_CASE("every line meets closed surfaces an even number of times, in and out in turn") {
-    // Fails when a row or column rule is not half open (planted: first_line rounds down for right
-    // ends), or when near ties are left as rounding has them.
+    // Fails when a row's runs are not half open (planted: a right end one line further), or when
+    // near ties are left as rounding has them (planted: order_near_ties never called).
     Scene scenes[] = {crowded_room(), l_room(grey(0.5), grey(0.5, 1), 2)};
     for (const Scene& scene : scenes) {
         REQUIRE(is_closed(scene));
@@ -136,8 +137,8 @@ TEST_CASE("lines along the axes, through edges and vertices, are even too") {
 
 TEST_CASE("projector and tracer find the same hits on the same lines") {
     // Only lines nearer to a projected edge than the snapping may differ: their expected number is
-    // edge length × snapping width. Fails when (u, v), facing or order differ (planted: nu and nv
-    // exchanged on one wall, faces taken the other way round).
+    // edge length × snapping width. Fails when (u, v), facing or order differ (planted: front and
+    // back exchanged in the projector's view).
     Scene scene = crowded_room(false);
     scene.surfaces[0].grid_u = 5;
     Patches patches = make_patches(scene);
