@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
     g++ cmake ninja-build
-    libtbb-dev libembree-dev libopenimageio-dev libglm-dev
+    libtbb-dev libembree-dev libopenimageio-dev openimageio-tools libglm-dev
     nlohmann-json3-dev libcli11-dev
     doctest-dev
     clang-format
