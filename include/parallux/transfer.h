@@ -61,6 +61,9 @@ struct SkyQuanta {
     std::int64_t against[max_bands] = {};  ///< entering at the last hit, travelling back
 };
 
+/// A state without any energy in it. O(patches).
+TransferState dark_state(const Patches& patches, double watts_per_quantum);
+
 /// Sets what every exit carries until the next merge: its emission quantum and the linear share
 /// min(1, cell / area) / batch of its unshot energy. `cell` is the area across the direction that
 /// one line stands for (δ² of a bundle). O(patches), in parallel.

@@ -26,19 +26,6 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-TransferState dark_state(const Patches& patches, double watts_per_quantum) {
-    std::size_t values = patches.count() * patches.bands;
-    TransferState state;
-    state.bands = patches.bands;
-    state.watts_per_quantum = watts_per_quantum;
-    for (auto* array : {&state.unshot, &state.received, &state.emission, &state.quanta})
-        array->assign(values, 0);
-    for (auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
-        totals->assign(patches.bands, 0);
-    state.exits.assign(patches.count(), 0);
-    return state;
-}
-
 // What each exit carries of a patch's own light over the whole run: of the reflected direct light
 // after a first shot, else of the emission itself. Returns what all exits are expected to carry.
 std::vector<std::int64_t> set_emission(const Patches& patches, const DirectLight& direct,

@@ -11,6 +11,19 @@ namespace {
 constexpr std::size_t patches_a_piece = 4096;
 }
 
+TransferState dark_state(const Patches& patches, double watts_per_quantum) {
+    std::size_t values = patches.count() * patches.bands;
+    TransferState state;
+    state.bands = patches.bands;
+    state.watts_per_quantum = watts_per_quantum;
+    for (auto* array : {&state.unshot, &state.received, &state.emission, &state.quanta})
+        array->assign(values, 0);
+    for (auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
+        totals->assign(patches.bands, 0);
+    state.exits.assign(patches.count(), 0);
+    return state;
+}
+
 void share_unshot(TransferState& state, const Patches& patches, double cell, std::uint32_t batch,
                   unsigned threads) {
     parallel_for(

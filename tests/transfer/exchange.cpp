@@ -12,19 +12,6 @@ using namespace parallux::test;
 
 namespace {
 
-TransferState state_of(const Patches& patches) {
-    TransferState state;
-    state.bands = patches.bands;
-    state.watts_per_quantum = 1;
-    std::size_t values = patches.count() * patches.bands;
-    for (auto* array : {&state.unshot, &state.received, &state.emission, &state.quanta})
-        array->assign(values, 0);
-    for (auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
-        totals->assign(patches.bands, 0);
-    state.exits.assign(patches.count(), 0);
-    return state;
-}
-
 // Six patches of a room; the list meets 0 (its front), 1 from behind, 2, an inert back, 3.
 IntersectionLists a_line() {
     IntersectionLists lists;
@@ -41,7 +28,7 @@ TEST_CASE("a list is followed in pairs that face each other") {
     Scene scene = room(grey(0.5), 1);
     Patches patches = make_patches(scene);
     for (Direction direction : {Direction::bidirectional, Direction::oriented}) {
-        TransferState state = state_of(patches);
+        TransferState state = dark_state(patches, 1);
         state.quanta = {10, 200, 3000, 40000, 0, 0};
         DeltaBanks banks(6, 1, 1, 1 << 20);
         SkyQuanta sky;
@@ -70,7 +57,7 @@ TEST_CASE("energy is neither made nor lost, to the last quantum, on any number o
     Scene scene = room(grey(0.37), 4);
     scene.bands = 3;
     Patches patches = make_patches(scene);
-    TransferState state = state_of(patches);
+    TransferState state = dark_state(patches, 1);
     Random random(5, 5);
     std::int64_t put_in = 0;
     for (std::int64_t& unshot : state.unshot)
@@ -118,7 +105,7 @@ TEST_CASE("energy is neither made nor lost, to the last quantum, on any number o
 TEST_CASE("the linear share is the cell over the area, and never more than all") {
     Scene scene = room(grey(0.5), 2);
     Patches patches = make_patches(scene);
-    TransferState state = state_of(patches);
+    TransferState state = dark_state(patches, 1);
     state.unshot.assign(patches.count(), 1'000'000);
     state.emission.assign(patches.count(), 5);
     share_unshot(state, patches, 0.025, 1, 1);
