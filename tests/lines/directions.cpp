@@ -92,5 +92,9 @@ TEST_CASE("a bundle is a pure function with an orthonormal frame") {
             CHECK(std::fabs(glm::dot(a.x, a.y)) < 1e-14);
             CHECK(glm::length(glm::cross(a.x, a.y) - a.direction) < 1e-14);
             CHECK(make_bundle({12, 1000, set, 0.25}, k).direction != a.direction);
+            // Fails when bundles come twice (planted: index / 2).
+            Bundle next = make_bundle({11, 1000, set, 0.25}, k + 1);
+            CHECK(next.direction != a.direction);
+            CHECK(next.offset_x != a.offset_x);
         }
 }
