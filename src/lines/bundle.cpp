@@ -31,10 +31,22 @@ struct Rotation {
 
 }  // namespace
 
+glm::dvec2 uniform_disk(Random& random, double& square) {
+    for (;;) {
+        glm::dvec2 p(2 * random.uniform() - 1, 2 * random.uniform() - 1);
+        square = p.x * p.x + p.y * p.y;
+        if (square < 1)
+            return p;
+    }
+}
+
 glm::dvec3 uniform_direction(Random& random) {
-    double z = 1 - 2 * random.uniform(), angle = 2 * pi * random.uniform();
-    double r = std::sqrt(std::fmax(0.0, 1 - z * z));
-    return {r * std::cos(angle), r * std::sin(angle), z};
+    // G. Marsaglia, Choosing a point from the surface of a sphere, 1972: no trigonometry, so that
+    // square roots alone, which are the same everywhere, decide the bits.
+    double square = 0;
+    glm::dvec2 p = uniform_disk(random, square);
+    double scale = 2 * std::sqrt(1 - square);
+    return {scale * p.x, scale * p.y, 1 - 2 * square};
 }
 
 glm::dvec3 fibonacci_direction(std::uint64_t point, std::uint64_t count) {

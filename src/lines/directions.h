@@ -2,11 +2,15 @@
 
 #include <cstdint>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "random.h"
 
 namespace parallux {
+
+/// Uniform in the unit disk; `square` is its squared distance from the centre, below 1.
+glm::dvec2 uniform_disk(Random& random, double& square);
 
 /// Uniform on the unit sphere.
 glm::dvec3 uniform_direction(Random& random);

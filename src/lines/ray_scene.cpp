@@ -15,21 +15,20 @@
 
 namespace parallux {
 
+DenormalsOff::DenormalsOff() : saved_(_mm_getcsr()) {
+    constexpr unsigned off = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON;
+    // Setting the register costs as much as a short ray: not where it is set already.
+    changed_ = (saved_ & off) != off;
+    if (changed_)
+        _mm_setcsr(saved_ | off);
+}
+
+DenormalsOff::~DenormalsOff() {
+    if (changed_)
+        _mm_setcsr(saved_);
+}
+
 namespace {
-
-// Embree's advice: denormals off in every thread that traces. Restored on leaving, so that the
-// caller's arithmetic keeps its meaning.
-class DenormalsOff {
-public:
-    DenormalsOff() : saved_(_mm_getcsr()) {
-        _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-        _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-    }
-    ~DenormalsOff() { _mm_setcsr(saved_); }
-
-private:
-    unsigned saved_;
-};
 
 // A query's own data behind Embree's context.
 struct Query {
@@ -208,6 +207,8 @@ void RayScene::all(const glm::dvec3& origin, const glm::dvec3& direction, double
     r.ray = data_->ray(origin, direction, far);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(data_->scene, &query.context, &r);
+    if (hits.size() < 2)
+        return;
     std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
         return a.t != b.t ? a.t < b.t : a.surface < b.surface;
     });

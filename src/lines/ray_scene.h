@@ -18,6 +18,21 @@ struct SurfaceHit {
     bool back = false;   ///< met from behind
 };
 
+/// Embree's advice: denormals off in every thread that traces, while one of these lives. Restored on
+/// leaving, so that the caller's arithmetic keeps its meaning. Every query holds one; a loop of many
+/// queries holds one itself, which makes theirs cheap.
+class DenormalsOff {
+public:
+    DenormalsOff();
+    ~DenormalsOff();
+    DenormalsOff(const DenormalsOff&) = delete;
+    DenormalsOff& operator=(const DenormalsOff&) = delete;
+
+private:
+    unsigned saved_;
+    bool changed_ = false;
+};
+
 /// The scene's surfaces in Embree, robust mode, about a local origin. Immutable after
 /// construction, so every query may run on any thread.
 class RayScene {

@@ -56,6 +56,7 @@ void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patche
     lists.start.assign(1, 0);
     lists.hits.clear();
     std::vector<SurfaceHit> hits;
+    DenormalsOff guard;
     for (std::size_t k = 0; k < count; ++k) {
         // A uniform direction, and a uniform point of the disk across it: every line through the
         // sphere is as likely as any other.
@@ -64,8 +65,9 @@ void trace_lines(const RayScene& rays, const Scene& scene, const Patches& patche
         frame_across(direction, x, y);
         if (directions)
             directions->push_back(direction);
-        double r = sphere.radius * std::sqrt(random.uniform()), angle = 2 * pi * random.uniform();
-        glm::dvec3 across = r * std::cos(angle) * x + r * std::sin(angle) * y;
+        double square = 0;
+        glm::dvec2 place = sphere.radius * uniform_disk(random, square);
+        glm::dvec3 across = place.x * x + place.y * y;
         double half = 1.001 * sphere.radius;
         rays.all(sphere.centre + across - half * direction, direction, 2 * half, hits);
         order_coincident(scene, hits, 1e-6f * static_cast<float>(sphere.radius));
