@@ -5,6 +5,7 @@
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/picture.h"
+#include "parallux/predict.h"
 #include "parallux/scene.h"
 #include "parallux/solve.h"
 #include "parallux/tables.h"

@@ -10,23 +10,37 @@
 #include "parallux/scene.h"
 #include "parallux/transfer.h"
 
-// Stage 6: the method. solve() is first shot, batches of lines, leftover, result.
+// Stage 6: the method. solve() is first shot, lines, leftover, result.
 
 namespace parallux {
 
-enum class Method { bundles, lines };
-enum class FirstShot { off, rays };
+/// How power is carried between patches, once the first shots are done.
+///  bundles      parallel lines, exchanged batch after batch from one snapshot each
+///  lines        independent lines as the paper prints it: each sees what the one before it did;
+///               in parallel form, with `batch` > 0, from snapshots as bundles do
+///  progressive  shots of local rays from the patch with most unshot power [Cohen88]
+///  particles    local random walks of equal quanta [Pattanaik92, Shirley91]
+///  matrix       the lines are only counted, F_ij = n_ij / n_i, then the system is solved
+///  [Sbert93];
+///               storage is quadratic in the patches
+/// The last three are what the first two are judged against.
+enum class Method { bundles, lines, progressive, particles, matrix };
+
+/// How direct light is found. automatic: rays for bundles and lines, off for the other methods.
+enum class FirstShot { automatic, off, rays, exact };
 
 struct SolveSettings {
     Method method = Method::bundles;
     Direction direction = Direction::bidirectional;
-    FirstShot first_shot = FirstShot::rays;
+    FirstShot first_shot = FirstShot::automatic;
     std::uint64_t first_shot_rays = 0;  ///< 0: grows with the lines
-    std::uint64_t bundles = 0;          ///< 0: from `lines`, else 4096
-    std::uint64_t lines = 0;            ///< wanted total; 0: from `bundles`
-    double line_spacing = 0;            ///< δ, metres; 0: from lines_per_patch
-    double lines_per_patch = 4;         ///< c: δ² = mean patch area / c
-    std::uint32_t batch = 0;  ///< bundles from one snapshot; 0: up to min(16, bundles / 64)
+    std::uint64_t shots = 0;     ///< then so many more, each from the patch with most unshot power
+    std::uint64_t bundles = 0;   ///< 0: from `lines`, else 4096
+    std::uint64_t lines = 0;     ///< wanted total, or local rays; 0: from `bundles`
+    double line_spacing = 0;     ///< δ, metres; 0: from lines_per_patch
+    double lines_per_patch = 4;  ///< c: δ² = mean patch area / c
+    std::uint32_t batch = 0;  ///< bundles (or as many lines) from one snapshot; 0: of bundles up to
+                              ///< min(16, bundles / 64), of lines one after the other
     DirectionSet directions = DirectionSet::lattice;
     std::uint64_t seed = 1;
     unsigned threads = 0;          ///< 0: all
@@ -37,7 +51,7 @@ struct SolveSettings {
 
 /// Where a solve stands; given to the callback now and then, always from the calling thread.
 struct Progress {
-    const char* stage = "";   ///< "first shot", "bundles", "lines"
+    const char* stage = "";   ///< "first shot", "bundles", "lines", "shots", "particles" …
     double done = 0;          ///< 0 … 1 of the stage
     std::uint64_t lines = 0;  ///< so far
     double seconds = 0;       ///< since the stage began
@@ -69,20 +83,24 @@ struct Solution {
     LineCounts counts;
     std::uint64_t leaks = 0;  ///< closed scenes: lists of odd length; others 0
     Seconds seconds;
-    std::uint64_t bundles = 0;  ///< done
+    std::uint64_t bundles = 0;  ///< done; of bundles and of lines in batches
     double line_spacing = 0;
     std::uint32_t batch = 0;
     unsigned threads = 0;
     std::uint64_t first_shot_rays = 0;
+    std::uint64_t shots = 0;  ///< done, beyond those from the sources
     bool partial = false;
     std::vector<std::string> warnings;
 };
 
 /// Solves H = F B, B = E + ρ H. Equal scene, patches and settings give equal bits on any number of
-/// threads. Storage is linear in the patches. Throws Fault::memory before taking more than
-/// max_memory, Fault::usage for settings that contradict each other.
+/// threads. Storage is linear in the patches, but for the matrix. Throws Fault::memory before
+/// taking more than max_memory, Fault::usage for settings that contradict each other.
 Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& settings,
                const ProgressCallback& progress = {});
+
+/// The name of a method, as options and statistics have it.
+const char* method_name(Method method);
 
 /// Bytes that solve() will take at its peak, state and deltas.
 std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,

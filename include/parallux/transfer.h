@@ -78,6 +78,13 @@ void share_unshot(TransferState& state, const Patches& patches, double cell, std
 void exchange(const IntersectionLists& lists, const TransferState& state, Direction direction,
               std::span<const SkyQuanta> sky, Deltas& deltas, bool shared, WorkerTotals& totals);
 
+/// Follows the lists one line after the other, as the paper prints it: of every pair the first
+/// sends the second all that is unshot, and its emission quantum (bidirectional: both do, at once);
+/// the reflected share of what arrives is unshot from then on. The state is exact after each line.
+/// Ends and backs count as in exchange(). Serial by nature.
+void exchange_in_order(const IntersectionLists& lists, TransferState& state, const Patches& patches,
+                       Direction direction, std::span<const SkyQuanta> sky, LineCounts& counts);
+
 /// Adds all deltas and totals to the state and clears them: what was sent leaves unshot, what came
 /// is absorbed or becomes unshot, exactly. O(patches), in parallel.
 void merge(TransferState& state, const Patches& patches, std::vector<Deltas>& deltas,

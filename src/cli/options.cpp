@@ -41,18 +41,18 @@ void add_unavailable(CLI::App& app) {
 }
 
 Method parse_method(const std::string& value) {
-    for (const char* later : {"progressive", "particles", "matrix"})
-        if (value == later)
-            not_available("--method " + value);
     return parse_choice<Method>("--method", value,
-                                {{"bundles", Method::bundles}, {"lines", Method::lines}});
+                                {{"bundles", Method::bundles},
+                                 {"lines", Method::lines},
+                                 {"progressive", Method::progressive},
+                                 {"particles", Method::particles},
+                                 {"matrix", Method::matrix}});
 }
 
 FirstShot parse_first_shot(const std::string& value) {
-    if (value == "exact")
-        not_available("--first-shot exact");
-    return parse_choice<FirstShot>("--first-shot", value,
-                                   {{"none", FirstShot::off}, {"rays", FirstShot::rays}});
+    return parse_choice<FirstShot>(
+        "--first-shot", value,
+        {{"none", FirstShot::off}, {"rays", FirstShot::rays}, {"exact", FirstShot::exact}});
 }
 
 std::filesystem::path parse_output(const std::string& option, const std::string& value) {
@@ -139,22 +139,29 @@ void add_method(CLI::App& app, SolveSettings& s) {
                       std::function<void(const std::string&)> read) {
         return add(app, name, value, help, std::move(read))->group(group);
     };
-    option("--method", "M", "bundles (of parallel lines) or lines (independent) [bundles]",
-           [&](auto& v) { s.method = parse_method(v); });
+    option(
+        "--method", "M",
+        "bundles (of parallel lines), lines (independent, one after the other), or for comparison "
+        "progressive, particles, matrix [bundles]",
+        [&](auto& v) { s.method = parse_method(v); });
     option("--direction", "D", "bidirectional or oriented exchange [bidirectional]", [&](auto& v) {
         s.direction = parse_choice<Direction>(
             "--direction", v,
             {{"bidirectional", Direction::bidirectional}, {"oriented", Direction::oriented}});
     });
-    option("--first-shot", "F", "Direct light by rays, or none [rays]",
+    option("--first-shot", "F",
+           "Direct light by rays, exact (form factors; emitters × patches), or none [rays with "
+           "bundles and lines]",
            [&](auto& v) { s.first_shot = parse_first_shot(v); });
     option("--first-shot-rays", "N", "Rays of the first shot [grows with the lines]",
            [&](auto& v) { s.first_shot_rays = parse_count("--first-shot-rays", v, 1); });
+    option("--shots", "N", "Then so many more, from the patches with most unshot power [0]",
+           [&](auto& v) { s.shots = parse_count("--shots", v, 0); });
     auto* bundles = option("--bundles", "D", "Directions of parallel lines [4096]",
                            [&](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
-    option("--lines", "N", "Lines in all", [&](auto& v) {
-        s.lines = parse_count("--lines", v, 1);
-    })->excludes(bundles);
+    option("--lines", "N", "Lines in all, rays or particles of the methods that send those",
+           [&](auto& v) { s.lines = parse_count("--lines", v, 1); })
+        ->excludes(bundles);
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
                            [&](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
     option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4]",
@@ -165,10 +172,13 @@ void add_method(CLI::App& app, SolveSettings& s) {
             "--directions", v,
             {{"lattice", DirectionSet::lattice}, {"random", DirectionSet::random}});
     });
-    option("--batch", "B", "Bundles from one snapshot; part of the result [up to 16]",
-           [&](auto& v) {
-               s.batch = static_cast<std::uint32_t>(parse_count("--batch", v, 1, count_32));
-           });
+    option(
+        "--batch", "B",
+        "Bundles, or as many lines, from one snapshot; part of the result [bundles up to 16, lines "
+        "one by one]",
+        [&](auto& v) {
+            s.batch = static_cast<std::uint32_t>(parse_count("--batch", v, 1, count_32));
+        });
     option("--sphere-radius", "R", "Of independent lines, in the scene's units [around the scene]",
            [&](auto& v) { s.sphere_radius = parse_positive("--sphere-radius", v); });
     option("--seed", "S", "Equal seeds give equal results, whatever the threads [1]",
@@ -208,10 +218,13 @@ void settle(SolveOptions& o) {
     };
     contradict(o.quiet && o.progress == ProgressMode::on,
                "--quiet and --progress on exclude each other");
-    contradict(o.solve.first_shot == FirstShot::off && o.solve.first_shot_rays > 0,
+    bool shot_by_rays =
+        o.solve.first_shot == FirstShot::rays || o.solve.first_shot == FirstShot::automatic;
+    contradict(!shot_by_rays && o.solve.first_shot_rays > 0,
                "--first-shot-rays needs --first-shot rays");
-    contradict(o.solve.method != Method::lines && o.solve.sphere_radius > 0,
-               "--sphere-radius needs --method lines");
+    bool independent = o.solve.method == Method::lines || o.solve.method == Method::matrix;
+    contradict(!independent && o.solve.sphere_radius > 0,
+               "--sphere-radius needs --method lines or matrix");
     if (o.quiet && o.progress == ProgressMode::automatic)
         o.progress = ProgressMode::off;
     for (double* length : {&o.patches.size, &o.solve.line_spacing, &o.solve.sphere_radius})

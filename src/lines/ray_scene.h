@@ -18,9 +18,9 @@ struct SurfaceHit {
     bool back = false;   ///< met from behind
 };
 
-/// Embree's advice: denormals off in every thread that traces, while one of these lives. Restored on
-/// leaving, so that the caller's arithmetic keeps its meaning. Every query holds one; a loop of many
-/// queries holds one itself, which makes theirs cheap.
+/// Embree's advice: denormals off in every thread that traces, while one of these lives. Restored
+/// on leaving, so that the caller's arithmetic keeps its meaning. Every query holds one; a loop of
+/// many queries holds one itself, which makes theirs cheap.
 class DenormalsOff {
 public:
     DenormalsOff();

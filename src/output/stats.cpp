@@ -94,7 +94,7 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["patches"] = patches.count();
     stats["surfaces"] = scene.surfaces.size();
     stats["bands"] = solution.bands;
-    stats["method"] = settings.method == Method::bundles ? "bundles" : "lines";
+    stats["method"] = method_name(settings.method);
     stats["seed"] = settings.seed;
     stats["threads"] = solution.threads;
     stats["bundles"] = solution.bundles;

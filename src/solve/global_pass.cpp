@@ -10,18 +10,6 @@ namespace parallux {
 
 namespace {
 
-// What a line brings from a sky: its cell times π L, spread over the run as emission is.
-SkyQuanta sky_quanta(const Scene& scene, const Plan& plan, const glm::dvec3& direction) {
-    SkyQuanta quanta;
-    Spectrum behind = scene.sky.radiance(-direction), ahead = scene.sky.radiance(direction);
-    double unit = plan.emission_cell * pi / plan.watts_per_quantum;
-    for (std::uint32_t band = 0; band < scene.bands; ++band) {
-        quanta.along[band] = std::llrint(unit * behind[band]);
-        quanta.against[band] = std::llrint(unit * ahead[band]);
-    }
-    return quanta;
-}
-
 // A worker's buffers, kept from tile to tile.
 struct Buffers {
     std::shared_ptr<Projector::Workspace> workspace = Projector::make_workspace();
@@ -32,19 +20,17 @@ struct Buffers {
 
 class Pass {
 public:
-    Pass(const Scene& scene, const Patches& patches, const RayScene* rays,
-         const SolveSettings& settings, const Plan& plan, const TransferState& state,
-         DeltaBanks& banks)
-        : scene_(scene),
-          patches_(patches),
-          rays_(rays),
-          settings_(settings),
-          plan_(plan),
+    Pass(const Run& run, const TransferState& state)
+        : scene_(run.scene),
+          patches_(run.patches),
+          rays_(run.rays),
+          settings_(run.settings),
+          plan_(run.plan),
           state_(state),
-          banks_(banks),
-          buffers_(plan.threads),
-          lit_(scene.sky.kind != Sky::Kind::dark),
-          projector_(scene, patches) {}
+          banks_(run.banks),
+          buffers_(run.plan.threads),
+          lit_(run.scene.sky.kind != Sky::Kind::dark),
+          projector_(run.scene, run.patches) {}
 
     // Projects the bundles side by side, then follows the tiles of all of them.
     void bundles(std::uint64_t first, std::uint32_t count) {
@@ -141,44 +127,48 @@ std::uint32_t next_batch(const Plan& plan, const TransferState& state, std::uint
 
 }  // namespace
 
-PassResult global_pass(const Scene& scene, const Patches& patches, const RayScene* rays,
-                       const SolveSettings& settings, const Plan& plan, TransferState& state,
-                       DeltaBanks& banks,
-                       const std::function<bool(std::uint64_t, std::uint64_t)>& go_on) {
-    Pass pass(scene, patches, rays, settings, plan, state, banks);
-    PassResult result{Leftover(scene, patches), {}, 0, 0, false};
+PassResult global_pass(const Run& run, const DirectLight& direct, TransferState& state) {
+    const Plan& plan = run.plan;
+    const bool bundles = run.settings.method == Method::bundles;
+    set_emission(run, direct, state);
+    Pass pass(run, state);
+    PassResult result;
+    result.leftover.emplace(run.scene, run.patches, direct.unshot);
     std::uint64_t emitting = plan.bundles - plan.closing;
     std::uint64_t halfway = emitting + plan.closing / 2;
     std::uint32_t batch = 1;
     while (result.bundles < plan.bundles) {
         // Emission ends before the lines do; what still goes round tells what is left over.
         if (plan.closing > 1 && (result.bundles == emitting || result.bundles == halfway))
-            result.leftover.note(state);
+            result.leftover->note(state);
         if (result.bundles == emitting) {
             std::fill(state.emission.begin(), state.emission.end(), 0);
             pass.darken_sky();
         }
         batch = next_batch(plan, state, result.bundles, batch);
-        share_unshot(state, patches, plan.cell, batch, plan.threads);
-        if (settings.method == Method::bundles) {
+        share_unshot(state, run.patches, plan.cell, batch, plan.threads);
+        if (bundles) {
             pass.bundles(result.bundles, batch);
         } else {
             std::uint64_t first = result.bundles * plan.lines_a_unit;
             std::uint64_t end = std::min(plan.lines, first + batch * plan.lines_a_unit);
             pass.lines(first, end - first);
         }
-        for (WorkerTotals& totals : banks.all_totals())
+        for (WorkerTotals& totals : run.banks.all_totals())
             result.counts += std::exchange(totals.counts, {});
-        merge(state, patches, banks.banks(), banks.all_totals(), plan.threads);
+        merge(state, run.patches, run.banks.banks(), run.banks.all_totals(), plan.threads);
         result.bundles += batch;
-        if (!go_on(result.bundles, result.counts.lines))
+        if (!run.listener.go_on(
+                bundles ? "bundles" : "lines",
+                static_cast<double>(result.bundles) / static_cast<double>(plan.bundles),
+                result.counts.lines))
             break;
     }
     result.done =
         std::min(1.0, static_cast<double>(result.bundles) / static_cast<double>(emitting));
     result.whole = result.bundles == plan.bundles;
     if (result.whole && plan.closing > 1)
-        result.leftover.note(state);
+        result.leftover->note(state);
     return result;
 }
 

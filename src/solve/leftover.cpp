@@ -4,8 +4,13 @@
 
 namespace parallux {
 
-Leftover::Leftover(const Scene& scene, const Patches& patches)
-    : groups_(patches.count(), 0), count_(static_cast<std::uint32_t>(2 * scene.objects.size())) {
+Leftover::Leftover(const Scene& scene, const Patches& patches,
+                   const std::vector<std::int64_t>& planned)
+    : groups_(patches.count(), 0),
+      count_(static_cast<std::uint32_t>(2 * scene.objects.size())),
+      planned_(patches.bands, 0) {
+    for (std::size_t k = 0; k < planned.size(); ++k)
+        planned_[k % patches.bands] += planned[k];
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         const SurfaceGrid& grid = patches.grids[s];
         std::uint32_t group = 2 * scene.surfaces[s].object;
@@ -27,7 +32,7 @@ void Leftover::note(const TransferState& state) {
 }
 
 std::vector<double> Leftover::factors(const TransferState& state, const Patches& patches,
-                                      const std::vector<std::int64_t>& planned, double done) const {
+                                      double done) const {
     std::uint32_t bands = state.bands;
     std::vector<double> factors(count_ * bands, 1);
     std::vector<double> absorbed(count_ * bands, 0);
@@ -42,7 +47,7 @@ std::vector<double> Leftover::factors(const TransferState& state, const Patches&
         double sky = static_cast<double>(state.sky[band]);
         double sent = static_cast<double>(state.emitted[band]) + sky;
         double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
-        double wanted = static_cast<double>(planned[band]) + sky / done;
+        double wanted = static_cast<double>(planned_[band]) + sky / done;
         if (!(sent > 0 && finished > 0 && wanted > 0))
             continue;
         // The share of each group's received energy that is still to come: after R1 and R2 in the

@@ -15,17 +15,18 @@ namespace parallux {
 /// then closes the balance.
 class Leftover {
 public:
-    Leftover(const Scene& scene, const Patches& patches);
+    /// `planned`: the emission quanta of the whole run, patch by patch.
+    Leftover(const Scene& scene, const Patches& patches, const std::vector<std::int64_t>& planned);
 
     /// Notes what every group has received so far: when the closing bundles begin, halfway, and at
     /// their end.
     void note(const TransferState& state);
 
-    /// By what each patch and band's received energy is to be multiplied. `planned`: emission
-    /// quanta of the whole run; `done`: the share of it that was to be sent. Without three notes (a
-    /// run stopped early or too short) one factor for all: planned / (absorbed + escaped).
+    /// By what each patch and band's received energy is to be multiplied. `done`: the share of the
+    /// planned emission that was to be sent. Without three notes (a run stopped early or too short)
+    /// one factor for all: planned / (absorbed + escaped).
     std::vector<double> factors(const TransferState& state, const Patches& patches,
-                                const std::vector<std::int64_t>& planned, double done) const;
+                                double done) const;
 
     /// Index into the factors of a patch: factors[group(patch) * bands + band].
     std::uint32_t group(std::size_t patch) const { return groups_[patch]; }
@@ -33,6 +34,7 @@ public:
 private:
     std::vector<std::uint32_t> groups_;  // one a patch: 2 · object + side
     std::uint32_t count_ = 0;
+    std::vector<std::int64_t> planned_;  // band totals
     std::vector<std::vector<double>> notes_;
 };
 

@@ -51,8 +51,9 @@ double arrives(const RayScene& rays, const Light& light, const glm::dvec3& point
 
 }  // namespace
 
-void add_light_points(const Scene& scene, const Patches& patches, const RayScene& rays,
-                      const FirstShotSettings& settings, DirectLight& direct) {
+void add_light_points(const Run& run, DirectLight& direct) {
+    const Scene& scene = run.scene;
+    const Patches& patches = run.patches;
     if (scene.lights.empty())
         return;
     std::uint32_t bands = patches.bands;
@@ -62,7 +63,7 @@ void add_light_points(const Scene& scene, const Patches& patches, const RayScene
     // of integers, which add up the same in any order.
     std::mutex mutex;
     parallel_for(
-        settings.threads, scene.surfaces.size(), 16,
+        run.plan.threads, scene.surfaces.size(), 16,
         [&](std::size_t begin, std::size_t end, unsigned) {
             std::vector<std::pair<std::size_t, std::int64_t>> found;
             for (std::size_t s = begin; s < end; ++s) {
@@ -88,7 +89,7 @@ void add_light_points(const Scene& scene, const Patches& patches, const RayScene
                             glm::dvec3 point = surface_point(scene, surface, cell.u0 + a * cell.du,
                                                              cell.v0 + b * cell.dv);
                             for (const Light& light : scene.lights) {
-                                double flux = arrives(rays, light, point, normal,
+                                double flux = arrives(*run.rays, light, point, normal,
                                                       static_cast<std::uint32_t>(s), far) *
                                               cell_area / (points_a_side * points_a_side);
                                 for (std::uint32_t band = 0; flux > 0 && band < bands; ++band)
@@ -99,7 +100,7 @@ void add_light_points(const Scene& scene, const Patches& patches, const RayScene
                             if (watts[band] > 0)
                                 found.emplace_back(
                                     (first + cell.index) * std::size_t(bands) + band,
-                                    std::llrint(watts[band] / settings.watts_per_quantum));
+                                    std::llrint(watts[band] / run.plan.watts_per_quantum));
                     });
                 }
             }

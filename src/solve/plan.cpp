@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include <unistd.h>
 
 #include "parallel.h"
 #include "parallux/error.h"
+#include "reference/matrix.h"
 #include "transfer/delta_banks.h"
 
 namespace parallux {
@@ -76,6 +80,20 @@ std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& setti
         std::min(wanted, std::floor(static_cast<double>(bundles) / 8)));
 }
 
+bool follows_lines(const SolveSettings& settings) {
+    return settings.method == Method::lines || settings.method == Method::matrix;
+}
+
+bool in_batches(const SolveSettings& settings) {
+    return settings.method == Method::bundles ||
+           (settings.method == Method::lines && settings.batch > 0);
+}
+
+std::uint64_t machine_memory() {
+    return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+           static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
 void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& plan) {
     double disc = pi * plan.sphere.radius * plan.sphere.radius;
     plan.spacing = settings.line_spacing > 0
@@ -93,16 +111,17 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
             std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
     else
         plan.bundles = 4096;
-    if (settings.method == Method::lines) {
+    if (follows_lines(settings)) {
         plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
         plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
         plan.lines_a_unit = std::min(plan.lines_a_unit, plan.lines);
         plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
         plan.cell = disc / static_cast<double>(plan.lines_a_unit);
     }
-    plan.closing = closing_bundles(patches, settings, plan.bundles);
+    if (in_batches(settings))
+        plan.closing = closing_bundles(patches, settings, plan.bundles);
     std::uint64_t emitting = plan.bundles - plan.closing;
-    if (settings.method == Method::lines) {
+    if (follows_lines(settings)) {
         // n_i = N A_i / (2 π R²) exits, so that an exit carries 2 π R² E / N.
         std::uint64_t lines = std::min(plan.lines, emitting * plan.lines_a_unit);
         plan.emission_cell = 2 * disc / static_cast<double>(lines);
@@ -112,10 +131,29 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
     }
     if (settings.direction == Direction::oriented)
         plan.emission_cell *= 2;
-    plan.batch =
-        settings.batch
-            ? settings.batch
-            : static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
+    plan.batch = settings.batch;
+    if (settings.method == Method::bundles && settings.batch == 0)
+        plan.batch =
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
+}
+
+double mean_reflectance(const Patches& patches) {
+    double area = 0, reflecting = 0;
+    for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
+        area += patches.area[k / patches.bands];
+        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
+    }
+    return reflecting / area;
+}
+
+// The methods that send single rays from patches: a thousand a patch where nothing is said.
+void plan_local_rays(const Patches& patches, const SolveSettings& settings, Plan& plan) {
+    plan.lines = settings.lines ? settings.lines : 1000 * patches.count();
+    plan.bundles = 0;
+    plan.spacing = 0;
+    // All shots together send P / (1 - ρ): so many rays leave in all as lines were asked for.
+    if (settings.method == Method::progressive)
+        plan.shot_rays = static_cast<double>(plan.lines) * (1 - mean_reflectance(patches));
 }
 
 // Direct light must never be what the error stops at: its rays, whose sequence is even, grow as an
@@ -159,7 +197,8 @@ std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
     std::uint64_t surface_bytes = sizeof(Surface) + sizeof(SurfaceGrid) + 200;
     // A projection holds corners, and each surface in a tile or two.
     std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
-    return count * patch_bytes + banks * DeltaBanks::bytes_a_bank(count, bands) +
+    std::uint64_t matrix = settings.method == Method::matrix ? matrix_bytes(count) : 0;
+    return matrix + count * patch_bytes + banks * DeltaBanks::bytes_a_bank(count, bands) +
            scene.surfaces.size() * (surface_bytes + projections * 8) +
            scene.positions.size() * (sizeof(glm::dvec3) + 12 + projections * 12) + (64u << 20);
 }
@@ -169,29 +208,80 @@ std::uint64_t bank_limit(const SolveSettings& settings) {
     return settings.max_memory ? std::min(limit, settings.max_memory / 4) : limit;
 }
 
-Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+    return settings.method != Method::bundles || !scene.lights.empty() || settings.shots > 0 ||
+           (emits(patches) && settings.first_shot != FirstShot::off);
+}
+
+namespace {
+
+void check(const SolveSettings& settings) {
     if (settings.bundles && settings.lines)
         throw Error(Fault::usage, "--bundles and --lines contradict each other; give one");
     if (!(settings.lines_per_patch > 0) || settings.line_spacing < 0)
         throw Error(Fault::usage, "lines per patch and line spacing must be positive");
+    bool bundles = settings.method == Method::bundles || settings.method == Method::lines;
+    if (!bundles && settings.bundles)
+        throw Error(Fault::usage, std::string("--bundles has no meaning for --method ") +
+                                      method_name(settings.method) + "; give --lines");
+}
+
+// What may be taken: as told, and of a dense matrix never more than the machine has.
+void check_memory(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+    std::uint64_t need = predicted_memory(scene, patches, settings), limit = settings.max_memory;
+    if (settings.method == Method::matrix)
+        limit = limit ? std::min(limit, machine_memory()) : machine_memory();
+    if (limit == 0 || need <= limit)
+        return;
+    std::string what = "this run needs about " + std::to_string((need >> 20) + 1) +
+                       " MiB, more than the " + std::to_string(limit >> 20) + " MiB allowed; ";
+    if (settings.method == Method::matrix)
+        throw Error(Fault::memory, what +
+                                       "the matrix grows with the square of the patches: choose "
+                                       "larger patches or another --method");
+    throw Error(Fault::memory, what + "choose larger patches or raise --max-memory");
+}
+
+}  // namespace
+
+Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+    check(settings);
+    check_memory(scene, patches, settings);
     Plan plan;
     plan.threads = thread_count(settings.threads);
     plan.bank_bytes = bank_limit(settings);
-    if (std::uint64_t need = predicted_memory(scene, patches, settings);
-        settings.max_memory && need > settings.max_memory)
-        throw Error(Fault::memory, "this run needs about " + std::to_string((need >> 20) + 1) +
-                                       " MiB, more than the " +
-                                       std::to_string(settings.max_memory >> 20) +
-                                       " MiB allowed; choose larger patches or raise --max-memory");
     plan.sphere = line_sphere(scene, settings.sphere_radius);
     plan.watts_per_quantum = quantum(power_bound(scene, patches, plan.sphere), patches);
     plan_lines(patches, settings, plan);
-    bool area_lights = emits(patches) && settings.first_shot == FirstShot::rays;
-    plan.first_shot = area_lights || !scene.lights.empty();
-    if (area_lights)
-        plan.first_shot_rays =
-            settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
+    plan.first_shot = settings.first_shot;
+    bool local = settings.method == Method::progressive || settings.method == Method::particles;
+    if (plan.first_shot == FirstShot::automatic)
+        plan.first_shot =
+            local || settings.method == Method::matrix ? FirstShot::off : FirstShot::rays;
+    std::uint64_t rays =
+        settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
+    plan.shot_rays = static_cast<double>(rays);
+    if (plan.first_shot == FirstShot::rays && emits(patches))
+        plan.first_shot_rays = rays;
+    if (local)
+        plan_local_rays(patches, settings, plan);
     return plan;
+}
+
+const char* method_name(Method method) {
+    switch (method) {
+        case Method::bundles:
+            return "bundles";
+        case Method::lines:
+            return "lines";
+        case Method::progressive:
+            return "progressive";
+        case Method::particles:
+            return "particles";
+        case Method::matrix:
+            break;
+    }
+    return "matrix";
 }
 
 }  // namespace parallux

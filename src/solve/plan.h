@@ -10,16 +10,17 @@ namespace parallux {
 /// The numbers of a run, all settled before it begins.
 struct Plan {
     unsigned threads = 1;
-    bool first_shot = false;  ///< there is direct light to shoot
+    FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
     std::uint64_t first_shot_rays = 0;
+    double shot_rays = 0;            ///< of a later shot with as much power as all sources have
     std::uint64_t bundles = 0;       ///< D; for independent lines, of lines_a_unit each
-    std::uint64_t lines = 0;         ///< independent lines in all
+    std::uint64_t lines = 0;         ///< independent lines in all, or particles
     std::uint64_t lines_a_unit = 0;  ///< independent lines that stand for one bundle
     double spacing = 0;              ///< δ, metres
     double cell = 0;                 ///< area across its direction that one line stands for, m²
     double emission_cell = 0;        ///< an exit carries emission_cell · E over the whole run
-    std::uint32_t batch = 1;
-    std::uint64_t closing = 0;  ///< of the bundles: the last ones, that carry no new emission
+    std::uint32_t batch = 1;         ///< 0: lines one after the other
+    std::uint64_t closing = 0;       ///< of the bundles: the last ones, that carry no new emission
     LineSphere sphere;
     double watts_per_quantum = 1;
     std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take
@@ -28,6 +29,9 @@ struct Plan {
 /// Settles every number from the scene, its patches and the settings. Throws Fault::usage for
 /// settings that contradict each other, Fault::memory when the run needs more than allowed.
 Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings);
+
+/// Whether the method casts single rays or lines, or has lights that do.
+bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings);
 
 /// The largest radiance of a sky in one band.
 double sky_bound(const Sky& sky, std::uint32_t band);

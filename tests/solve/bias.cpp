@@ -79,6 +79,7 @@ TEST_CASE("bundles and independent lines agree on every patch") {
         settings.first_shot = FirstShot::off;
         std::vector<Sample> random = over_seeds(scene, patches, settings, 32, 1000);
         settings.method = Method::lines;
+        settings.batch = 16;
         settings.lines_per_patch = 1;
         settings.bundles = 1024;
         std::vector<Sample> lines = over_seeds(scene, patches, settings, 32, 2000);

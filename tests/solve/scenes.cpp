@@ -106,6 +106,7 @@ TEST_CASE("our furnace, L-shaped room and corridor: projector and tracer agree w
         settings.lines_per_patch = 1;
         std::vector<Sample> bundles = over_seeds(scene, patches, settings, 32);
         settings.method = Method::lines;
+        settings.batch = 8;
         settings.first_shot = FirstShot::off;
         std::vector<Sample> lines = over_seeds(scene, patches, settings, 32, 500);
         double bound = sidak_bound(bundles.size(), 32);

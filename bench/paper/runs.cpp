@@ -1,0 +1,122 @@
+#include "paper/runs.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "parallel.h"
+#include "reference/error_theory.h"
+#include "reference/exact_factors.h"
+
+namespace parallux::paper {
+
+namespace {
+
+// Four runs of 16384 bundles: their own quadratic error stays below a hundredth of the smallest
+// cell's.
+std::vector<double> long_runs(const Scene& scene, const Patches& patches) {
+    std::vector<double> truth(patches.count(), 0);
+    constexpr int runs = 4;
+    for (int k = 0; k < runs; ++k) {
+        SolveSettings settings;
+        settings.first_shot = FirstShot::exact;
+        settings.bundles = 16384;
+        settings.seed = 1'000'000 + static_cast<std::uint64_t>(k);
+        const Solution solution = solve(scene, patches, settings);
+        for (std::size_t patch = 0; patch < truth.size(); ++patch)
+            truth[patch] += solution.radiosity[patch] / double(runs);
+    }
+    return truth;
+}
+
+// The exact answer of a convex room, and what the theory says of bidirectional lines in it.
+void solve_exactly(Room& room) {
+    ErrorModel model;
+    model.factors = exact_factors(room.scene, room.patches);
+    const Eigen::VectorXd exact = exact_radiosity(model.factors, room.patches);
+    room.truth.assign(exact.data(), exact.data() + exact.size());
+    model.area = Eigen::Map<const Eigen::VectorXd>(room.patches.area.data(),
+                                                   static_cast<Eigen::Index>(room.patches.count()));
+    model.emission = emission_of(room.patches);
+    model.reflectance = reflectance_of(room.patches);
+    const double radius = line_sphere(room.scene).radius;
+    model.exits = model.area / (2 * pi * radius * radius);  // of one line
+    const PredictedError theory = error_theory(model);
+    room.theory_full = theory.quadratic_full;
+    room.theory_variation = theory.variation;
+    room.theory_freedom = theory.freedom;
+}
+
+}  // namespace
+
+const Room& Rooms::room(const std::string& name) {
+    auto [place, fresh] = rooms_.try_emplace(name);
+    Room& room = place->second;
+    if (fresh) {
+        room.scene = load_scene(folder_ + "/" + name + ".json");
+        room.patches = make_patches(room.scene);
+        if (room.scene.objects.size() > 1 && name.starts_with("paper_scene2"))
+            room.truth = long_runs(room.scene, room.patches);
+        else
+            solve_exactly(room);
+    }
+    return room;
+}
+
+const Prediction& Rooms::predicted(const std::string& name, const Variant& variant) {
+    room(name);
+    Room& room = rooms_.at(name);
+    auto [place, fresh] = room.predicted.try_emplace(variant.name);
+    if (fresh) {
+        SolveSettings settings;
+        settings.direction = variant.direction;
+        settings.first_shot = variant.first_shot;
+        place->second = predict_error(room.scene, room.patches, settings);
+    }
+    return place->second;
+}
+
+std::vector<double> run_errors(const Room& room, const Variant& variant, std::uint64_t lines,
+                               int count) {
+    std::vector<double> errors(static_cast<std::size_t>(count));
+    SolveSettings settings;
+    settings.method = variant.method;
+    settings.direction = variant.direction;
+    settings.first_shot = variant.first_shot;
+    settings.directions = variant.directions;
+    settings.lines_per_patch = variant.lines_per_patch;
+    settings.lines = lines;
+    settings.threads = 1;
+    parallel_for(0, errors.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t k = begin; k < end; ++k) {
+            SolveSettings own = settings;
+            own.seed = 1 + k;
+            const Solution solution = solve(room.scene, room.patches, own);
+            double sum = 0, area = 0;
+            for (std::size_t patch = 0; patch < room.patches.count(); ++patch) {
+                const double difference = solution.radiosity[patch] - room.truth[patch];
+                sum += room.patches.area[patch] * difference * difference;
+                area += room.patches.area[patch];
+            }
+            errors[k] = sum / area;
+        }
+    });
+    return errors;
+}
+
+double Spread::standard_error() const {
+    return deviation / std::sqrt(static_cast<double>(count));
+}
+
+Spread spread_of(const std::vector<double>& values) {
+    Spread spread;
+    spread.count = static_cast<int>(values.size());
+    for (double value : values)
+        spread.mean += value / static_cast<double>(values.size());
+    double squares = 0;
+    for (double value : values)
+        squares += (value - spread.mean) * (value - spread.mean);
+    spread.deviation = std::sqrt(squares / static_cast<double>(values.size() - 1));
+    return spread;
+}
+
+}  // namespace parallux::paper

@@ -1,0 +1,137 @@
+#include "reference/particles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "parallel.h"
+#include "random.h"
+#include "reference/sky_points.h"
+#include "solve/emitters.h"
+#include "solve/shot_rays.h"
+
+namespace parallux {
+
+namespace {
+
+using Quanta = std::array<std::int64_t, max_bands>;
+
+class Walker {
+public:
+    Walker(const Run& run, const Emitters& emitters) : run_(run), emitters_(emitters) {}
+
+    // One particle, from its birth to where it is absorbed or leaves the scene.
+    void walk(std::uint64_t number, unsigned worker) const {
+        Random random(run_.settings.seed, stream::particles + number);
+        std::size_t piece = emitters_.choose(random.uniform());
+        Emitter from = emitters_.pieces[piece];
+        double a = random.uniform(), b = random.uniform();
+        glm::dvec3 origin = point_on(run_.scene, from, a, b);
+        glm::dvec3 normal = emitter_normal(run_.scene, from);
+        std::uint32_t surface = from.surface;
+        Quanta carried = birth(piece);
+        WorkerTotals& totals = run_.banks.totals(worker);
+        for (std::uint32_t band = 0; band < emitters_.bands; ++band)
+            totals.sky[band] += carried[band];
+        for (;;) {
+            a = random.uniform();
+            b = random.uniform();
+            glm::dvec3 direction = cosine_direction(normal, a, b);
+            SurfaceHit hit = run_.rays->closest(origin, direction,
+                                                std::numeric_limits<double>::infinity(), surface);
+            ++totals.counts.lines;
+            std::uint32_t patch = patch_of(run_.scene, run_.patches, hit);
+            if (patch == none) {
+                for (std::uint32_t band = 0; band < emitters_.bands; ++band)
+                    totals.escaped[band] += carried[band];
+                return;
+            }
+            ++totals.counts.hits;
+            for (std::uint32_t band = 0; band < emitters_.bands; ++band)
+                run_.banks.receive(worker, patch * std::size_t(emitters_.bands) + band,
+                                   carried[band]);
+            if (!reflect(patch, random.uniform(), carried))
+                return;
+            surface = hit.surface;
+            const Surface& met = run_.scene.surfaces[surface];
+            origin = surface_point(run_.scene, met, hit.u, hit.v);
+            normal = surface_normal(run_.scene, met) * (hit.back ? -1.0 : 1.0);
+        }
+    }
+
+private:
+    // Every particle carries the same power, summed over bands.
+    Quanta birth(std::size_t piece) const {
+        const double* power = &emitters_.power[piece * emitters_.bands];
+        double sum = std::accumulate(power, power + emitters_.bands, 0.0);
+        Quanta quanta{};
+        for (std::uint32_t band = 0; band < emitters_.bands; ++band)
+            quanta[band] = std::llrint(power[band] / sum * emitters_.total /
+                                       static_cast<double>(run_.plan.lines));
+        return quanta;
+    }
+
+    // Russian roulette with the highest reflectance q; band b goes on with ρ_b / q of its power.
+    bool reflect(std::uint32_t patch, double chance, Quanta& carried) const {
+        const float* reflectance = &run_.patches.reflectance[patch * std::size_t(emitters_.bands)];
+        double survival = *std::max_element(reflectance, reflectance + emitters_.bands);
+        if (chance >= survival)
+            return false;
+        for (std::uint32_t band = 0; band < emitters_.bands; ++band)
+            carried[band] = std::llrint(static_cast<double>(reflectance[band]) / survival *
+                                        static_cast<double>(carried[band]));
+        return true;
+    }
+
+    const Run& run_;
+    const Emitters& emitters_;
+};
+
+}  // namespace
+
+PassResult particle_pass(const Run& run, DirectLight& direct, TransferState& state) {
+    add_sky_points(run, direct);
+    PassResult result;
+    const Emitters emitters = emitters_of(run.scene, run.patches, direct.unshot);
+    if (emitters.pieces.empty())
+        return result;
+
+    // In slabs, so that the caller is heard now and then.
+    const Walker walker(run, emitters);
+    constexpr std::uint64_t slab = 1 << 18;
+    std::uint64_t done = 0;
+    while (done < run.plan.lines) {
+        std::uint64_t count = std::min(slab, run.plan.lines - done);
+        parallel_for(run.plan.threads, count, 1024,
+                     [&](std::size_t begin, std::size_t end, unsigned worker) {
+                         DenormalsOff guard;
+                         for (std::size_t k = begin; k < end; ++k)
+                             walker.walk(done + k, worker);
+                     });
+        done += count;
+        for (WorkerTotals& totals : run.banks.all_totals())
+            result.counts += std::exchange(totals.counts, {});
+        result.done = static_cast<double>(done) / static_cast<double>(run.plan.lines);
+        if (!run.listener.go_on("particles", result.done, result.counts.lines))
+            break;
+    }
+    result.whole = done == run.plan.lines;
+    result.counts.nonempty = result.counts.hits;
+
+    // Every walk has ended: what did not escape was absorbed. Particles stopped early stand for
+    // those not born.
+    run.banks.collect(state.received, state.emitted, state.escaped);
+    for (std::uint32_t band = 0; band < state.bands; ++band) {
+        state.emitted[band] = std::llrint(static_cast<double>(state.emitted[band]) / result.done);
+        state.escaped[band] = std::llrint(static_cast<double>(state.escaped[band]) / result.done);
+        state.absorbed[band] = state.emitted[band] - state.escaped[band];
+    }
+    for (std::int64_t& received : state.received)
+        received = std::llrint(static_cast<double>(received) / result.done);
+    return result;
+}
+
+}  // namespace parallux

@@ -1,0 +1,37 @@
+#include "reference/progressive.h"
+
+#include "reference/sky_points.h"
+#include "solve/brightest.h"
+
+namespace parallux {
+
+namespace {
+
+// Ambient = R Σ A_i ΔB_i / Σ A_i with R = 1 / (1 - Σ A_i ρ_i / Σ A_i), Cohen's equations 20 to 22.
+std::vector<double> ambient_of(const Run& run, const DirectLight& direct) {
+    const Patches& patches = run.patches;
+    std::vector<double> unshot(patches.bands, 0), absorbing(patches.bands, 0);
+    for (std::size_t k = 0; k < direct.unshot.size(); ++k) {
+        std::uint32_t band = static_cast<std::uint32_t>(k % patches.bands);
+        unshot[band] += static_cast<double>(direct.unshot[k]) * run.plan.watts_per_quantum;
+        absorbing[band] +=
+            patches.area[k / patches.bands] * (1 - static_cast<double>(patches.reflectance[k]));
+    }
+    for (std::uint32_t band = 0; band < patches.bands; ++band)
+        unshot[band] /= absorbing[band];
+    return unshot;
+}
+
+}  // namespace
+
+PassResult progressive_pass(const Run& run, DirectLight& direct) {
+    add_sky_points(run, direct);
+    shoot_brightest(run, direct, {run.settings.shots, 1e-3, run.plan.shot_rays});
+    PassResult result;
+    result.ambient = ambient_of(run, direct);
+    result.counts.lines = direct.rays;
+    result.whole = !run.listener.stopped();
+    return result;
+}
+
+}  // namespace parallux

@@ -1,0 +1,134 @@
+#include "solve/emitters.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "lines/directions.h"
+
+namespace parallux {
+
+namespace {
+
+// Calls visit(emitter, area of its cell) for all cells and sides.
+template <class Visit>
+void for_all_cells(const Scene& scene, const Patches& patches, Visit&& visit) {
+    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+        const SurfaceGrid& grid = patches.grids[s];
+        Shape shape = scene.surfaces[s].shape();
+        double area =
+            surface_area(scene, scene.surfaces[s]) / (static_cast<double>(grid.nu) * grid.nv);
+        for (std::uint32_t first : {grid.front, grid.back})
+            if (first != none)
+                for_each_cell(shape, grid, [&](const Cell& cell) {
+                    visit(Emitter{s, first + cell.index, first == grid.back, cell}, area);
+                });
+    }
+}
+
+void add(Emitters& emitters, const Emitter& piece, double share,
+         std::span<const std::int64_t> power) {
+    double sum = 0;
+    for (std::int64_t quanta : power) {
+        emitters.power.push_back(share * static_cast<double>(quanta));
+        sum += emitters.power.back();
+    }
+    emitters.pieces.push_back(piece);
+    emitters.up_to.push_back(emitters.total += sum);
+}
+
+void close(Emitters& emitters) {
+    for (double& up_to : emitters.up_to)
+        up_to /= emitters.total;
+}
+
+}  // namespace
+
+std::size_t Emitters::choose(double at) const {
+    auto piece = std::upper_bound(up_to.begin(), up_to.end(), at) - up_to.begin();
+    return std::min(static_cast<std::size_t>(piece), pieces.size() - 1);
+}
+
+Emitters emitters_of(const Scene& scene, const Patches& patches,
+                     std::span<const std::int64_t> power) {
+    Emitters emitters;
+    emitters.bands = patches.bands;
+    for_all_cells(scene, patches, [&](const Emitter& piece, double area) {
+        auto own = power.subspan(std::size_t(piece.patch) * patches.bands, patches.bands);
+        if (std::any_of(own.begin(), own.end(), [](std::int64_t quanta) { return quanta > 0; }))
+            add(emitters, piece, area / patches.area[piece.patch], own);
+    });
+    close(emitters);
+    return emitters;
+}
+
+std::vector<Emitter> all_cells(const Scene& scene, const Patches& patches) {
+    std::vector<Emitter> cells;
+    for_all_cells(scene, patches, [&](const Emitter& cell, double) { cells.push_back(cell); });
+    return cells;
+}
+
+PatchCells::PatchCells(const Scene& scene, const Patches& patches)
+    : start_(patches.count() + 1, 0) {
+    for_all_cells(scene, patches, [&](const Emitter& piece, double) { ++start_[piece.patch + 1]; });
+    for (std::size_t patch = 0; patch < patches.count(); ++patch)
+        start_[patch + 1] += start_[patch];
+    cells_.resize(start_.back());
+    share_.resize(start_.back());
+    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+    for_all_cells(scene, patches, [&](const Emitter& piece, double area) {
+        std::uint32_t at = next[piece.patch]++;
+        cells_[at] = piece;
+        share_[at] = area / patches.area[piece.patch];
+    });
+}
+
+Emitters PatchCells::emitters(std::uint32_t patch, std::span<const std::int64_t> power) const {
+    Emitters emitters;
+    emitters.bands = static_cast<std::uint32_t>(power.size());
+    for (std::uint32_t k = start_[patch]; k < start_[patch + 1]; ++k)
+        add(emitters, cells_[k], share_[k], power);
+    close(emitters);
+    return emitters;
+}
+
+glm::dvec3 point_on(const Scene& scene, const Emitter& emitter, double a, double b) {
+    const Surface& surface = scene.surfaces[emitter.surface];
+    if (surface.shape() == Shape::triangle) {
+        double root = std::sqrt(a);
+        a = 1 - root;
+        b *= root;
+    }
+    return surface_point(scene, surface, emitter.cell.u0 + a * emitter.cell.du,
+                         emitter.cell.v0 + b * emitter.cell.dv);
+}
+
+glm::dvec3 cosine_direction(const glm::dvec3& normal, double a, double b) {
+    glm::dvec3 x, y;
+    frame_across(normal, x, y);
+    double r = std::sqrt(a), angle = 2 * pi * b;
+    return r * std::cos(angle) * x + r * std::sin(angle) * y + std::sqrt(1 - a) * normal;
+}
+
+Polygon polygon_of(const Scene& scene, const Emitter& emitter) {
+    const Surface& surface = scene.surfaces[emitter.surface];
+    const Cell& c = emitter.cell;
+    auto at = [&](double u, double v) {
+        return surface_point(scene, surface, c.u0 + u * c.du, c.v0 + v * c.dv);
+    };
+    Polygon polygon;
+    polygon.add(at(0, 0));
+    polygon.add(emitter.back ? at(0, 1) : at(1, 0));
+    if (surface.shape() == Shape::parallelogram)
+        polygon.add(at(1, 1));
+    polygon.add(emitter.back ? at(1, 0) : at(0, 1));
+    return polygon;
+}
+
+glm::dvec3 emitter_normal(const Scene& scene, const Emitter& emitter) {
+    glm::dvec3 normal = surface_normal(scene, scene.surfaces[emitter.surface]);
+    return emitter.back ? -normal : normal;
+}
+
+}  // namespace parallux

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "factors/form_factors.h"
+#include "parallux/patches.h"
+#include "patches/patch_values.h"
+
+namespace parallux {
+
+/// One cell and side of one surface, which sends power.
+struct Emitter {
+    std::uint32_t surface, patch;
+    bool back;
+    Cell cell;
+};
+
+/// The cells of patches with power, and the power of each in quanta, bands together.
+struct Emitters {
+    std::vector<Emitter> pieces;
+    std::vector<double> power;  ///< piece · bands + band
+    std::vector<double> up_to;  ///< running share of the power, of all pieces; ends at 1
+    double total = 0;           ///< of all bands
+    std::uint32_t bands = 0;
+
+    /// Which piece a number of [0, 1) chooses, by power.
+    std::size_t choose(double at) const;
+};
+
+/// All cells whose patch has power. A patch of several cells sends from each by its area. Linear in
+/// the cells.
+Emitters emitters_of(const Scene& scene, const Patches& patches,
+                     std::span<const std::int64_t> power);
+
+/// All cells and sides, surface by surface.
+std::vector<Emitter> all_cells(const Scene& scene, const Patches& patches);
+
+/// All cells, patch by patch, for shots from single patches. 100 bytes a cell.
+class PatchCells {
+public:
+    PatchCells(const Scene& scene, const Patches& patches);
+
+    /// The cells of one patch, which has the powers given.
+    Emitters emitters(std::uint32_t patch, std::span<const std::int64_t> power) const;
+
+private:
+    std::vector<std::uint32_t> start_;  // patches + 1 offsets
+    std::vector<Emitter> cells_;
+    std::vector<double> share_;  // of the patch's area
+};
+
+/// A uniform point of an emitter's cell from two numbers of [0, 1).
+glm::dvec3 point_on(const Scene& scene, const Emitter& emitter, double a, double b);
+
+/// A direction by the cosine law about a unit normal, from two numbers of [0, 1).
+glm::dvec3 cosine_direction(const glm::dvec3& normal, double a, double b);
+
+/// The cell, its corners counter-clockwise seen from the side that emits.
+Polygon polygon_of(const Scene& scene, const Emitter& emitter);
+
+/// Unit normal of the side that emits.
+glm::dvec3 emitter_normal(const Scene& scene, const Emitter& emitter);
+
+}  // namespace parallux

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <chrono>
+
+#include "lines/ray_scene.h"
+#include "parallux/solve.h"
+#include "solve/plan.h"
+#include "transfer/delta_banks.h"
+
+namespace parallux {
+
+class Watch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Asks the caller whether to go on, and minds the time limit.
+class Listener {
+public:
+    Listener(const ProgressCallback& callback, double time_limit)
+        : callback_(callback), time_limit_(time_limit) {}
+
+    /// `done`: share of the stage, `lines` or rays so far in it. Once false, always false.
+    bool go_on(const char* stage, double done, std::uint64_t lines) {
+        // A stage begins where the one before it was last heard of.
+        if (stage != stage_) {
+            stage_ = stage;
+            stage_watch_ = last_;
+        }
+        last_ = Watch();
+        if (callback_ && !callback_({stage, done, lines, stage_watch_.seconds()}))
+            stopped_ = true;
+        if (time_limit_ > 0 && total_.seconds() > time_limit_)
+            stopped_ = true;
+        return !stopped_;
+    }
+
+    bool stopped() const { return stopped_; }
+
+private:
+    const ProgressCallback& callback_;
+    double time_limit_;
+    const char* stage_ = nullptr;
+    Watch total_, stage_watch_, last_;
+    bool stopped_ = false;
+};
+
+/// What all stages of one solve work on.
+struct Run {
+    const Scene& scene;
+    const Patches& patches;
+    const SolveSettings& settings;
+    const Plan& plan;
+    const RayScene* rays;  ///< null where the method needs none
+    DeltaBanks& banks;
+    Listener& listener;
+};
+
+}  // namespace parallux
