@@ -43,13 +43,19 @@ bool in_check(const Cell& cell) {
 Result run_cell(Rooms& rooms, const Cell& cell, const Options& options) {
     Result result;
     result.cell = cell;
-    const Room& room = rooms.room(cell.scene);
-    result.errors = run_errors(room, cell.variant, cell.lines, options.runs);
+    const bool counted = judged_by_counts(cell.table);
+    const Errors& errors =
+        rooms.errors(cell.scene, cell.variant, cell.lines, options.runs, counted);
+    result.to_truth = spread_of(errors.truth);
+    if (counted)
+        result.to_counts = spread_of(errors.counted);
+    result.errors = cell.table == 2 ? errors.counted : errors.truth;
     result.ours = spread_of(result.errors);
     result.predicted =
         rooms.predicted(cell.scene, cell.variant).quadratic(static_cast<double>(cell.lines));
     for (const Variant& bundles : bundle_variants(cell.variant))
-        result.bundles.push_back(spread_of(run_errors(room, bundles, cell.lines, options.runs)));
+        result.bundles.push_back(
+            spread_of(rooms.errors(cell.scene, bundles, cell.lines, options.runs, false).truth));
     return result;
 }
 
@@ -65,7 +71,7 @@ int run(const Options& options) {
         results.push_back(run_cell(rooms, cell, options));
         print_row(results.back());
     }
-    const std::vector<Slope> slopes = slopes_of(results);
+    const std::vector<Slope> slopes = slopes_of(rooms, results);
     const std::vector<Distribution> distributions = distributions_of(rooms, results);
     print_slopes(slopes);
     print_gains(results);

@@ -12,77 +12,112 @@
 
 namespace parallux::paper {
 
-double Result::z() const {
-    const double own = ours.standard_error(), theirs = ours.variation() * cell.paper / 10;
+double Result::z_of(const Spread& spread) const {
+    const double own = spread.standard_error(), theirs = spread.variation() * cell.paper / 10;
     const double digit = 1e-7 / std::sqrt(12.0);
-    return (ours.mean - cell.paper) / std::sqrt(own * own + theirs * theirs + digit * digit);
+    return (spread.mean - cell.paper) / std::sqrt(own * own + theirs * theirs + digit * digit);
 }
 
 int disagreements(const std::vector<Result>& results) {
     int count = 0;
     for (const Result& result : results)
-        count += !result.cell.doubtful && std::fabs(result.z()) > 3.5;
+        if (result.cell.table == 2)
+            count += std::fabs(result.ratio() - 1) > 0.15;
+        else
+            count += result.cell.paper > 0 && !result.cell.doubtful && std::fabs(result.z()) > 3.5;
     return count;
 }
 
 namespace {
 
-struct Fit {
-    std::vector<double> x, y;
-
-    double slope() const {
-        const double n = static_cast<double>(x.size());
-        const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n;
-        const double my = std::accumulate(y.begin(), y.end(), 0.0) / n;
-        double xx = 0, xy = 0;
-        for (std::size_t k = 0; k < x.size(); ++k) {
-            xx += (x[k] - mx) * (x[k] - mx);
-            xy += (x[k] - mx) * (y[k] - my);
-        }
-        return xy / xx;
-    }
-};
-
 std::string family(const Cell& cell) {
     return cell.table == 2 ? "scene 2" : cell.table == 5 ? "scene 3" : "scene 1";
 }
 
+// Points in groups, each group with a level of its own.
+struct Fit {
+    struct Point {
+        double x, y, weight;
+    };
+    std::map<std::uint64_t, std::vector<Point>> groups;
+
+    void add(std::uint64_t group, double x, const Spread& spread) {
+        // log of the mean has the relative standard error of the mean.
+        const double error = spread.standard_error() / spread.mean;
+        groups[group].push_back({std::log(x), std::log(spread.mean), 1 / (error * error)});
+    }
+
+    Slope slope() const {
+        Slope result;
+        double xx = 0, xy = 0;
+        for (const auto& [group, points] : groups) {
+            double weight = 0, mean_x = 0, mean_y = 0;
+            for (const Point& p : points) {
+                weight += p.weight;
+                mean_x += p.weight * p.x;
+                mean_y += p.weight * p.y;
+            }
+            mean_x /= weight;
+            mean_y /= weight;
+            for (const Point& p : points) {
+                xx += p.weight * (p.x - mean_x) * (p.x - mean_x);
+                xy += p.weight * (p.x - mean_x) * (p.y - mean_y);
+            }
+            result.cells += points.size() > 1 ? static_cast<int>(points.size()) : 0;
+        }
+        result.slope = xx > 0 ? xy / xx : 0;
+        result.error = xx > 0 ? 1 / std::sqrt(xx) : 0;
+        return result;
+    }
+};
+
+double exits_a_patch(Rooms& rooms, const Cell& cell) {
+    const Room& room = rooms.room(cell.scene);
+    const double area = std::accumulate(room.patches.area.begin(), room.patches.area.end(), 0.0);
+    const double radius = line_sphere(room.scene).radius;
+    const double exits =
+        static_cast<double>(cell.lines) * area / cell.patches / (2 * pi * radius * radius);
+    return cell.variant.direction == Direction::oriented ? exits / 2 : exits;
+}
+
 }  // namespace
 
-std::vector<Slope> slopes_of(const std::vector<Result>& results) {
-    // Against lines for each scene, variant and number of patches; against patches at equal lines,
-    // averaged over the numbers of lines.
-    std::map<std::tuple<int, std::string, std::uint32_t>, Fit> by_lines;
-    std::map<std::tuple<int, std::string, std::uint64_t>, Fit> by_patches;
+std::vector<Slope> slopes_of(Rooms& rooms, const std::vector<Result>& results) {
+    std::map<std::pair<std::string, std::string>, std::pair<Fit, Fit>> fits;
     for (const Result& result : results) {
         const Cell& cell = result.cell;
-        const double error = std::log(result.ours.mean);
-        Fit& lines = by_lines[{cell.table, cell.variant.name, cell.patches}];
-        lines.x.push_back(std::log(static_cast<double>(cell.lines)));
-        lines.y.push_back(error);
-        Fit& patches = by_patches[{cell.table, cell.variant.name, cell.lines}];
-        patches.x.push_back(std::log(static_cast<double>(cell.patches)));
-        patches.y.push_back(error);
+        // Table 3 shows the runs of table 1 again.
+        if (cell.table == 3 || exits_a_patch(rooms, cell) < 20)
+            continue;
+        const double lines = static_cast<double>(cell.lines), patches = cell.patches;
+        auto add = [&](const std::string& name, const Spread& spread) {
+            auto& [by_lines, by_patches] = fits[{family(cell), name}];
+            by_lines.add(cell.patches, lines, spread);
+            if (cell.patches > 6)
+                by_patches.add(cell.lines, patches, spread);
+        };
+        const std::string name = cell.variant.name;
+        add(name, result.to_truth);
+        if (cell.table == 2)
+            add(name + ", to counts", result.to_counts);
+        const std::string shot =
+            cell.variant.first_shot == FirstShot::exact ? ", first shot exact" : "";
+        // Table 6 shows the bundles of table 1 again.
+        if (cell.table != 6 || cell.paper == 0) {
+            add("bundles, random" + shot, result.bundles[0]);
+            add("bundles, lattice" + shot, result.bundles[1]);
+        }
     }
     std::vector<Slope> slopes;
-    auto name = [&](int table) {
-        for (const Result& result : results)
-            if (result.cell.table == table)
-                return "table " + std::to_string(table) + ", " + family(result.cell);
-        return std::string();
-    };
-    for (const auto& [key, fit] : by_lines)
-        if (fit.x.size() > 1)
-            slopes.push_back(
-                {std::get<1>(key),
-                 name(std::get<0>(key)) + ", " + std::to_string(std::get<2>(key)) + " patches",
-                 "lines", fit.slope(), static_cast<int>(fit.x.size())});
-    for (const auto& [key, fit] : by_patches)
-        if (fit.x.size() > 1)
-            slopes.push_back(
-                {std::get<1>(key),
-                 name(std::get<0>(key)) + ", " + std::to_string(std::get<2>(key)) + " lines",
-                 "patches", fit.slope(), static_cast<int>(fit.x.size())});
+    for (const auto& [key, fit] : fits)
+        for (bool against_lines : {true, false}) {
+            Slope slope = (against_lines ? fit.first : fit.second).slope();
+            slope.scene = key.first;
+            slope.variant = key.second;
+            slope.against = against_lines ? "lines" : "patches";
+            if (slope.cells > 1)
+                slopes.push_back(slope);
+        }
     return slopes;
 }
 
@@ -93,7 +128,7 @@ std::vector<Distribution> distributions_of(Rooms& rooms, const std::vector<Resul
         const double stated = cell.patches == 6 ? (cell.lines == 10'000 ? 0.771 : 0.806)
                                                 : (cell.lines == 100'000 ? 0.204 : 0.223);
         const bool wanted = cell.patches == 6 ? cell.lines >= 10'000 : cell.lines >= 100'000;
-        if (cell.table != 6 || !wanted)
+        if (cell.table != 6 || !wanted || cell.paper == 0)
             continue;
         const Room& room = rooms.room(cell.scene);
         Distribution d;
@@ -117,27 +152,38 @@ std::vector<Distribution> distributions_of(Rooms& rooms, const std::vector<Resul
 
 void print_heading(int table) {
     std::printf("\nTable %d: %s. Quadratic error, times 1e-7.\n", table, caption(table));
-    std::printf("%7s %9s %-26s %10s %10s %6s %6s %10s | %10s %10s\n", "patches", "lines", "variant",
-                "paper", "ours", "ratio", "z", "predicted", "bundles", "bundles");
-    std::printf("%7s %9s %-26s %10s %10s %6s %6s %10s | %10s %10s\n", "", "", "", "", "", "", "",
-                "", "random", "lattice");
+    std::printf("%7s %9s %-26s %8s %10s %6s %6s | %10s %10s %10s | %10s %10s\n", "patches", "lines",
+                "variant", "paper", "ours", "ratio", "z", "to exact", "predicted", "to counts",
+                "bundles,", "bundles,");
+    std::printf("%7s %9s %-26s %8s %10s %6s %6s | %10s %10s %10s | %10s %10s\n", "", "", "", "", "",
+                "", "", "", "", "", "random", "lattice");
 }
 
 void print_row(const Result& r) {
-    std::printf("%7u %9llu %-26s %10.0f %10.2f %6.3f %+6.2f %10.2f | %10.2f %10.2f%s\n",
-                r.cell.patches, static_cast<unsigned long long>(r.cell.lines), r.cell.variant.name,
-                r.cell.paper * 1e7, r.ours.mean * 1e7, r.ratio(), r.z(), r.predicted * 1e7,
-                r.bundles[0].mean * 1e7, r.bundles[1].mean * 1e7,
+    std::printf("%7u %9llu %-26s ", r.cell.patches, static_cast<unsigned long long>(r.cell.lines),
+                r.cell.variant.name);
+    if (r.cell.paper > 0)
+        std::printf("%8.0f %10.2f %6.3f %+6.2f", r.cell.paper * 1e7, r.ours.mean * 1e7, r.ratio(),
+                    r.z());
+    else
+        std::printf("%8s %10.2f %6s %6s", "-", r.ours.mean * 1e7, "", "");
+    std::printf(" | %10.2f %10.2f ", r.to_truth.mean * 1e7, r.predicted * 1e7);
+    if (r.to_counts.count > 0)
+        std::printf("%10.2f", r.to_counts.mean * 1e7);
+    else
+        std::printf("%10s", "");
+    std::printf(" | %10.2f %10.2f%s\n", r.bundles[0].mean * 1e7, r.bundles[1].mean * 1e7,
                 r.cell.doubtful ? "  * the paper's cell does not agree with its other tables" : "");
     std::fflush(stdout);
 }
 
 void print_slopes(const std::vector<Slope>& slopes) {
     if (!slopes.empty())
-        std::printf("\nSlopes of the quadratic error (log-log)\n");
+        std::printf(
+            "\nSlopes of the quadratic error (log-log), cells of 20 exits a patch and more\n");
     for (const Slope& s : slopes)
-        std::printf("%-42s %-26s against %-8s %+.3f (%d cells)\n", s.scene.c_str(),
-                    s.variant.c_str(), s.against.c_str(), s.slope, s.points);
+        std::printf("%-8s %-38s against %-8s %+.3f +- %.3f (%d cells)\n", s.scene.c_str(),
+                    s.variant.c_str(), s.against.c_str(), s.slope, s.error, s.cells);
 }
 
 namespace {
@@ -209,38 +255,42 @@ void write_json(const std::string& file, const std::vector<Result>& results,
               {"distributions", Json::array()},
               {"pictures", Json::array()}};
     for (const Result& r : results) {
-        json["cells"].push_back({{"table", r.cell.table},
-                                 {"patches", r.cell.patches},
-                                 {"lines", r.cell.lines},
-                                 {"variant", r.cell.variant.name},
-                                 {"paper", r.cell.paper},
-                                 {"ours", r.ours.mean},
-                                 {"ratio", r.ratio()},
-                                 {"z", r.z()},
-                                 {"predicted", r.predicted},
-                                 {"runs", r.ours.count},
-                                 {"variation", r.ours.variation()},
-                                 {"doubtful", r.cell.doubtful}});
+        auto add = [&](const std::string& variant, const char* reference, const Spread& spread,
+                       bool beside_paper, bool predicted) {
+            json["cells"].push_back(
+                {{"table", r.cell.table},
+                 {"patches", r.cell.patches},
+                 {"lines", r.cell.lines},
+                 {"variant", variant},
+                 {"paper", beside_paper ? Json(r.cell.paper) : Json()},
+                 {"ours", spread.mean},
+                 {"ratio", beside_paper ? Json(spread.mean / r.cell.paper) : Json()},
+                 {"z", beside_paper ? Json(r.z_of(spread)) : Json()},
+                 {"predicted", predicted ? Json(r.predicted) : Json()},
+                 {"reference", reference},
+                 {"runs", spread.count},
+                 {"variation", spread.variation()},
+                 {"doubtful", r.cell.doubtful}});
+        };
+        const std::string name = r.cell.variant.name;
+        const char *truth = "exact solution", *counts = "[Sbert93] on the same lines";
+        if (r.cell.table == 2)
+            add(name, counts, r.to_counts, true, false);
+        add(r.cell.table == 2 ? name + ", against the exact solution" : name, truth, r.to_truth,
+            r.cell.paper > 0, true);
+        if (r.cell.table == 1)
+            add(name + ", against [Sbert93] on the same lines", counts, r.to_counts, true, false);
         const std::vector<Variant> variants = bundle_variants(r.cell.variant);
         for (std::size_t k = 0; k < variants.size(); ++k)
-            json["cells"].push_back({{"table", r.cell.table},
-                                     {"patches", r.cell.patches},
-                                     {"lines", r.cell.lines},
-                                     {"variant", variants[k].name},
-                                     {"paper", nullptr},
-                                     {"ours", r.bundles[k].mean},
-                                     {"ratio", nullptr},
-                                     {"z", nullptr},
-                                     {"predicted", nullptr},
-                                     {"runs", r.bundles[k].count},
-                                     {"variation", r.bundles[k].variation()}});
+            add(variants[k].name, truth, r.bundles[k], false, false);
     }
     for (const Slope& s : slopes)
         json["slopes"].push_back({{"scene", s.scene},
                                   {"variant", s.variant},
                                   {"against", s.against},
                                   {"slope", s.slope},
-                                  {"cells", s.points}});
+                                  {"standard_error", s.error},
+                                  {"cells", s.cells}});
     for (const Distribution& d : distributions)
         json["distributions"].push_back({{"figure", d.figure},
                                          {"patches", d.patches},

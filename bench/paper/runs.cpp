@@ -1,11 +1,14 @@
 #include "paper/runs.h"
 
 #include <cmath>
-#include <cstring>
 
+#include "lines/line_stream.h"
 #include "parallel.h"
 #include "reference/error_theory.h"
 #include "reference/exact_factors.h"
+#include "reference/matrix.h"
+#include "solve/first_shot.h"
+#include "solve/gather.h"
 
 namespace parallux::paper {
 
@@ -75,9 +78,73 @@ const Prediction& Rooms::predicted(const std::string& name, const Variant& varia
     return place->second;
 }
 
-std::vector<double> run_errors(const Room& room, const Variant& variant, std::uint64_t lines,
-                               int count) {
-    std::vector<double> errors(static_cast<std::size_t>(count));
+const Errors& Rooms::errors(const std::string& name, const Variant& variant, std::uint64_t lines,
+                            int count, bool counted) {
+    const bool shot = variant.first_shot == FirstShot::exact;
+    const std::string key = name + variant.name + (shot ? " shot " : " ") + std::to_string(lines);
+    auto [place, fresh] = errors_.try_emplace(key);
+    if (fresh || (counted && place->second.counted.empty()))
+        place->second = run_errors(room(name), variant, lines, count, counted);
+    return place->second;
+}
+
+namespace {
+
+double quadratic_error(const Patches& patches, const std::vector<float>& radiosity,
+                       const std::vector<double>& truth) {
+    double sum = 0, area = 0;
+    for (std::size_t patch = 0; patch < patches.count(); ++patch) {
+        const double difference = radiosity[patch] - truth[patch];
+        sum += patches.area[patch] * difference * difference;
+        area += patches.area[patch];
+    }
+    return sum / area;
+}
+
+// A run of lines that are followed as solve() does it and counted at once: radiosities of both.
+struct Twofold {
+    std::vector<float> followed;
+    std::vector<double> counted;  // [Sbert93]
+};
+
+Twofold follow_and_count(const Room& room, const SolveSettings& settings) {
+    const Patches& patches = room.patches;
+    const Plan plan = make_plan(room.scene, patches, settings);
+    const ProgressCallback nobody;
+    Listener listener(nobody, 0);
+    DeltaBanks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
+    const RayScene rays(room.scene, plan.threads);
+    const Run run{room.scene, patches, settings, plan, &rays, banks, listener};
+    const DirectLight direct = first_shot(run);
+    TransferState state = dark_state(patches, plan.watts_per_quantum);
+    set_emission(run, direct, state);
+    CountedLines counted(room.scene, patches);
+    PassResult pass;
+    trace_in_order({rays, room.scene, patches, plan.sphere, settings.seed, plan.lines, false, 1},
+                   [&](const IntersectionLists& lists, const std::vector<glm::dvec3>& directions,
+                       std::uint64_t) {
+                       exchange_in_order(lists, state, patches, settings.direction, {},
+                                         pass.counts);
+                       counted.count(lists, directions);
+                       return true;
+                   });
+    Twofold result;
+    result.followed = gather(run, direct, pass, state).radiosity;
+    const std::vector<double> emission(patches.emission.begin(), patches.emission.end());
+    result.counted = counted.irradiance(emission, 0);
+    for (std::size_t patch = 0; patch < patches.count(); ++patch)
+        result.counted[patch] =
+            emission[patch] + patches.reflectance[patch] * result.counted[patch];
+    return result;
+}
+
+}  // namespace
+
+Errors run_errors(const Room& room, const Variant& variant, std::uint64_t lines, int count,
+                  bool counted) {
+    Errors errors;
+    errors.truth.resize(static_cast<std::size_t>(count));
+    errors.counted.resize(counted ? errors.truth.size() : 0);
     SolveSettings settings;
     settings.method = variant.method;
     settings.direction = variant.direction;
@@ -86,18 +153,18 @@ std::vector<double> run_errors(const Room& room, const Variant& variant, std::ui
     settings.lines_per_patch = variant.lines_per_patch;
     settings.lines = lines;
     settings.threads = 1;
-    parallel_for(0, errors.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+    parallel_for(0, errors.truth.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t k = begin; k < end; ++k) {
             SolveSettings own = settings;
             own.seed = 1 + k;
-            const Solution solution = solve(room.scene, room.patches, own);
-            double sum = 0, area = 0;
-            for (std::size_t patch = 0; patch < room.patches.count(); ++patch) {
-                const double difference = solution.radiosity[patch] - room.truth[patch];
-                sum += room.patches.area[patch] * difference * difference;
-                area += room.patches.area[patch];
+            if (counted) {
+                const Twofold run = follow_and_count(room, own);
+                errors.truth[k] = quadratic_error(room.patches, run.followed, room.truth);
+                errors.counted[k] = quadratic_error(room.patches, run.followed, run.counted);
+            } else {
+                errors.truth[k] = quadratic_error(
+                    room.patches, solve(room.scene, room.patches, own).radiosity, room.truth);
             }
-            errors[k] = sum / area;
         }
     });
     return errors;

@@ -22,6 +22,15 @@ struct Room {
     std::map<std::string, Prediction> predicted;  ///< by variant
 };
 
+/// Quadratic errors Σ A_i (B_i - B_i*)² / Σ A_i of runs with seeds 1 … count, side by side on all
+/// cores, each on one.
+struct Errors {
+    std::vector<double> truth;    ///< B* is the room's
+    std::vector<double> counted;  ///< B* is [Sbert93]'s of the very same lines; where asked for
+};
+Errors run_errors(const Room& room, const Variant& variant, std::uint64_t lines, int count,
+                  bool counted);
+
 /// Loads scenes of a folder as they are asked for, and solves each once: convex rooms by exact form
 /// factors, scene 2 as the mean of four long runs of bundles with exact first shot.
 class Rooms {
@@ -31,16 +40,15 @@ public:
     const Room& room(const std::string& name);
     /// The a-priori error of a variant of lines.
     const Prediction& predicted(const std::string& name, const Variant& variant);
+    /// run_errors(), each set of runs once: tables 1 and 3 show the same ones.
+    const Errors& errors(const std::string& name, const Variant& variant, std::uint64_t lines,
+                         int count, bool counted);
 
 private:
     std::string folder_;
     std::map<std::string, Room> rooms_;
+    std::map<std::string, Errors> errors_;
 };
-
-/// Quadratic errors Σ A_i (B_i - B_i*)² / Σ A_i of runs with seeds 1 … count, side by side on all
-/// cores, each on one.
-std::vector<double> run_errors(const Room& room, const Variant& variant, std::uint64_t lines,
-                               int count);
 
 struct Spread {
     double mean = 0, deviation = 0;

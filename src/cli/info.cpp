@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/prediction.h"
 #include "cli/terminal.h"
 #include "parallux/tables.h"
 
@@ -129,11 +130,14 @@ std::string for_people(const Json& info) {
 
 }  // namespace
 
-std::string describe_scene(const Scene& scene, bool json) {
+std::string describe_scene(const Scene& scene, const InfoOptions& options) {
     Json info = describe(scene);
+    if (options.predict)
+        info["prediction"] = predict_lines(scene, options);
     // Names may hold any bytes; JSON may not.
-    return json ? info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"
-                : for_people(info);
+    if (options.json)
+        return info.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return for_people(info) + (options.predict ? prediction_text(info["prediction"]) : "");
 }
 
 }  // namespace parallux

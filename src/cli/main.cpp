@@ -50,8 +50,7 @@ int compare(const CompareOptions& options) {
 int run(const Options& options) {
     switch (options.command) {
         case Command::info:
-            print(describe_scene(load_scene(options.info.scene, options.info.load),
-                                 options.info.json));
+            print(describe_scene(load_scene(options.info.scene, options.info.load), options.info));
             return 0;
         case Command::solve:
             return solve_scene(options.solve);

@@ -118,17 +118,16 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
     of_picture(app.add_flag("--flat", picture.flat, "Show the patches unsmoothed"));
 }
 
-void add_patches(CLI::App& app, SolveOptions& o) {
+void add_patches(CLI::App& app, PatchSettings& patches) {
     const char* group = "Patches";
     auto* size = add(app, "--patch-size", "L", "Wanted side, in the scene's units",
-                     [&](auto& v) { o.patches.size = parse_positive("--patch-size", v); });
-    auto* count = add(app, "--patches", "N", "Wanted number in all [10000]", [&](auto& v) {
-        o.patches.count = parse_count("--patches", v, 1, 0x7fffffff);
-    });
+                     [&](auto& v) { patches.size = parse_positive("--patch-size", v); });
+    auto* count = add(app, "--patches", "N", "Wanted number in all [10000]",
+                      [&](auto& v) { patches.count = parse_count("--patches", v, 1, 0x7fffffff); });
     size->excludes(count)->group(group);
     count->group(group);
     app.add_flag_callback(
-           "--no-clusters", [&] { o.patches.clusters = false; },
+           "--no-clusters", [&] { patches.clusters = false; },
            "Give every fine triangle a patch of its own")
         ->group(group);
 }
@@ -235,6 +234,27 @@ CLI::App* add_info(CLI::App& app, InfoOptions& o) {
     auto* info = app.add_subcommand("info", "Say what a scene holds");
     add_scene(*info, o.scene, o.load);
     info->add_flag("--json", o.json, "As one JSON object");
+    const char* group = "Prediction";
+    auto* predict = info->add_flag("--predict", o.predict,
+                                   "Expected error of independent lines, before they are cast");
+    predict->group(group);
+    auto option = [&](const char* name, const char* value, const char* help,
+                      std::function<void(const std::string&)> read) {
+        add(*info, name, value, help, std::move(read))->needs(predict)->group(group);
+    };
+    o.solve.lines = 1'000'000;
+    option("--lines", "N", "State the error of so many lines [1e6]",
+           [&](auto& v) { o.solve.lines = parse_count("--lines", v, 1); });
+    option("--error", "R", "State the lines for this relative RMS error [0.01]",
+           [&](auto& v) { o.error = parse_positive("--error", v); });
+    option("--sphere-radius", "R", "Of the lines, in the scene's units [around the scene]",
+           [&](auto& v) { o.solve.sphere_radius = parse_positive("--sphere-radius", v); });
+    option("--seed", "S", "Of the estimate [1]",
+           [&](auto& v) { o.solve.seed = parse_count("--seed", v, 0); });
+    option("--threads", "T", "0: all [0]", [&](auto& v) {
+        o.solve.threads = static_cast<unsigned>(parse_count("--threads", v, 0, 4096));
+    });
+    add_patches(*info, o.patches);
     return info;
 }
 
@@ -242,7 +262,7 @@ CLI::App* add_solve(CLI::App& app, SolveOptions& o) {
     auto* solve = app.add_subcommand("solve", "Solve a scene's radiosity; give the outputs wanted");
     add_scene(*solve, o.scene, o.load);
     add_outputs(*solve, o);
-    add_patches(*solve, o);
+    add_patches(*solve, o.patches);
     add_method(*solve, o.solve);
     add_run(*solve, o);
     add_unavailable(*solve);
@@ -300,6 +320,8 @@ Options parse_options(int argc, const char* const* argv) {
                                         : Command::compare;
     if (options.command == Command::solve)
         settle(options.solve);
+    for (double* length : {&options.info.patches.size, &options.info.solve.sphere_radius})
+        *length *= options.info.load.scale;
     return options;
 }
 

@@ -17,6 +17,10 @@ struct InfoOptions {
     std::filesystem::path scene;
     LoadSettings load;
     bool json = false;
+    bool predict = false;  ///< say how wrong how many lines will be
+    PatchSettings patches;
+    SolveSettings solve;  ///< of the lines: number, sphere; of the run: seed, threads
+    double error = 0.01;  ///< relative RMS to give the lines for
 };
 
 struct SolveOptions {

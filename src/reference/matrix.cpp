@@ -1,5 +1,6 @@
 #include "reference/matrix.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -88,93 +89,96 @@ struct Eigen::internal::generic_product_impl<parallux::System, Right, Eigen::Spa
 
 namespace parallux {
 
-namespace {
-
-// What the lines counted.
-struct Counted {
-    Counts between;
-    std::vector<std::uint64_t> escaped;  // exits that ended outside or at a back
-    std::vector<double> sky;             // Σ π L over the exits that met the sky; band by patch
+struct CountedLines::Matrix {
+    Counts counts;
 };
 
-class Counter {
-public:
-    Counter(const Run& run, TransferState& state, LineCounts& counts, Counted& counted)
-        : run_(run), state_(state), counts_(counts), counted_(counted) {}
+CountedLines::CountedLines(const Scene& scene, const Patches& patches)
+    : scene_(scene),
+      patches_(patches),
+      between_(std::make_unique<Matrix>()),
+      exits_(patches.count(), 0),
+      escaped_(patches.count(), 0),
+      sky_(patches.count() * patches.bands, 0) {
+    const auto n = static_cast<Eigen::Index>(patches.count());
+    between_->counts = Counts::Zero(n, n);
+}
 
-    void count(const IntersectionLists& lists, const std::vector<glm::dvec3>& directions) {
-        counts_.lines += lists.lines();
-        counts_.hits += lists.hits.size();
-        for (std::size_t line = 0; line < lists.lines(); ++line) {
-            std::uint32_t first = lists.start[line], end = lists.start[line + 1];
-            if (first == end)
-                continue;
-            ++counts_.nonempty;
-            counts_.odd += (end - first) % 2;
-            const glm::dvec3* direction = directions.empty() ? nullptr : &directions[line];
-            leave(lists.hits[first].toward, direction, -1);
-            leave(lists.hits[end - 1].away, direction, 1);
-            for (std::uint32_t k = first; k + 1 < end; ++k)
-                pair(lists.hits[k].away, lists.hits[k + 1].toward);
-        }
+CountedLines::~CountedLines() = default;
+
+void CountedLines::count(const IntersectionLists& lists,
+                         const std::vector<glm::dvec3>& directions) {
+    counts_.lines += lists.lines();
+    counts_.hits += lists.hits.size();
+    for (std::size_t line = 0; line < lists.lines(); ++line) {
+        std::uint32_t first = lists.start[line], end = lists.start[line + 1];
+        if (first == end)
+            continue;
+        ++counts_.nonempty;
+        counts_.odd += (end - first) % 2;
+        const glm::dvec3* direction = directions.empty() ? nullptr : &directions[line];
+        leave(lists.hits[first].toward, direction, -1);
+        leave(lists.hits[end - 1].away, direction, 1);
+        for (std::uint32_t k = first; k + 1 < end; ++k)
+            pair(lists.hits[k].away, lists.hits[k + 1].toward);
     }
+}
 
-private:
-    void leave(std::uint32_t patch, const glm::dvec3* direction, double sign) {
-        if (patch == none)
-            return;
-        ++state_.exits[patch];
-        ++counted_.escaped[patch];
-        if (!direction)
-            return;
-        Spectrum radiance = run_.scene.sky.radiance(sign * *direction);
-        for (std::uint32_t band = 0; band < state_.bands; ++band)
-            counted_.sky[patch * std::size_t(state_.bands) + band] += pi * radiance[band];
+void CountedLines::leave(std::uint32_t patch, const glm::dvec3* direction, double sign) {
+    if (patch == none)
+        return;
+    ++exits_[patch];
+    ++escaped_[patch];
+    if (!direction)
+        return;
+    Spectrum radiance = scene_.sky.radiance(sign * *direction);
+    for (std::uint32_t band = 0; band < patches_.bands; ++band)
+        sky_[patch * std::size_t(patches_.bands) + band] += pi * radiance[band];
+}
+
+void CountedLines::pair(std::uint32_t i, std::uint32_t j) {
+    if (i != none && j != none) {
+        ++counts_.transfers;
+        ++exits_[i];
+        ++exits_[j];
+        ++between_->counts(i, j);
+        ++between_->counts(j, i);
+    } else if (std::uint32_t patch = i != none ? i : j; patch != none) {
+        leave(patch, nullptr, 0);
+        ++counts_.met_backs;
     }
+}
 
-    void pair(std::uint32_t i, std::uint32_t j) {
-        if (i != none && j != none) {
-            ++counts_.transfers;
-            ++state_.exits[i];
-            ++state_.exits[j];
-            ++counted_.between(i, j);
-            ++counted_.between(j, i);
-        } else if (std::uint32_t patch = i != none ? i : j; patch != none) {
-            leave(patch, nullptr, 0);
-            ++counts_.met_backs;
-        }
-    }
+double CountedLines::escaped(std::size_t patch) const {
+    return static_cast<double>(escaped_[patch]) / std::max(1.0, static_cast<double>(exits_[patch]));
+}
 
-    const Run& run_;
-    TransferState& state_;
-    LineCounts& counts_;
-    Counted& counted_;
-};
+double CountedLines::sky(std::size_t patch, std::uint32_t band) const {
+    return sky_[patch * patches_.bands + band] / std::max(1.0, static_cast<double>(exits_[patch]));
+}
 
-// Irradiance of one band, W/m².
-Vector solve_band(const Run& run, const TransferState& state, const Counted& counted_lines,
-                  const Vector& emission, std::uint32_t band) {
-    const Eigen::Index n = counted_lines.between.rows();
-    const std::uint32_t bands = state.bands;
+std::vector<double> CountedLines::irradiance(const std::vector<double>& emission,
+                                             std::uint32_t band) const {
+    const Counts& between = between_->counts;
+    const Eigen::Index n = between.rows();
     Vector exits(n), reflectance(n), sky(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        std::size_t k = static_cast<std::size_t>(i) * bands + band;
-        exits[i] = std::max(1.0, static_cast<double>(state.exits[static_cast<std::size_t>(i)]));
-        reflectance[i] = run.patches.reflectance[k];
-        sky[i] = counted_lines.sky[k];
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch) {
+        const auto i = static_cast<Eigen::Index>(patch);
+        exits[i] = std::max(1.0, static_cast<double>(exits_[patch]));
+        reflectance[i] = patches_.reflectance[patch * patches_.bands + band];
+        sky[i] = sky_[patch * patches_.bands + band];
     }
     const Vector scale = (reflectance.cwiseQuotient(exits)).cwiseSqrt();
-    const System system(counted_lines.between, scale);
+    const System system(between, scale);
     Eigen::ConjugateGradient<System, Eigen::Lower | Eigen::Upper, Eigen::IdentityPreconditioner> cg;
     cg.setTolerance(1e-13);
     cg.compute(system);
-    const Vector right = counted(counted_lines.between, emission) + sky;
+    const Vector right = counted(between, Eigen::Map<const Vector>(emission.data(), n)) + sky;
     const Vector x = cg.solve(scale.cwiseProduct(right));
     // ρ_j H_j = √(ρ_j / n_j) x_j, and H by one more product, so that ρ = 0 needs no division.
-    return (right + counted(counted_lines.between, scale.cwiseProduct(x))).cwiseQuotient(exits);
+    const Vector result = (right + counted(between, scale.cwiseProduct(x))).cwiseQuotient(exits);
+    return {result.data(), result.data() + n};
 }
-
-}  // namespace
 
 std::uint64_t matrix_bytes(std::uint64_t patches) {
     return patches * patches * sizeof(std::uint32_t);
@@ -182,15 +186,10 @@ std::uint64_t matrix_bytes(std::uint64_t patches) {
 
 PassResult matrix_pass(const Run& run, const DirectLight& direct, TransferState& state) {
     const std::uint32_t bands = state.bands;
-    const auto n = static_cast<Eigen::Index>(run.patches.count());
     PassResult result;
 
     // Count the lines.
-    Counted counted_lines;
-    counted_lines.between = Counts::Zero(n, n);
-    counted_lines.escaped.assign(run.patches.count(), 0);
-    counted_lines.sky.assign(run.patches.count() * bands, 0);
-    Counter counter(run, state, result.counts, counted_lines);
+    CountedLines counted_lines(run.scene, run.patches);
     LineStream stream{*run.rays,
                       run.scene,
                       run.patches,
@@ -199,44 +198,39 @@ PassResult matrix_pass(const Run& run, const DirectLight& direct, TransferState&
                       run.plan.lines,
                       run.scene.sky.kind != Sky::Kind::dark,
                       run.plan.threads};
-    std::uint64_t done = trace_in_order(stream, [&](const IntersectionLists& lists,
-                                                    const std::vector<glm::dvec3>& directions,
-                                                    std::uint64_t) {
-        counter.count(lists, directions);
-        return run.listener.go_on(
-            "lines", static_cast<double>(result.counts.lines) / static_cast<double>(run.plan.lines),
-            result.counts.lines);
-    });
+    const double lines = static_cast<double>(run.plan.lines);
+    std::uint64_t done = trace_in_order(
+        stream, [&](const IntersectionLists& lists, const std::vector<glm::dvec3>& directions,
+                    std::uint64_t before) {
+            counted_lines.count(lists, directions);
+            std::uint64_t so_far = before + lists.lines();
+            return run.listener.go_on("lines", static_cast<double>(so_far) / lines, so_far);
+        });
+    result.counts = counted_lines.counts();
     result.whole = done == run.plan.lines;
-    std::size_t unseen = 0;
-    for (std::uint64_t exits : state.exits)
-        unseen += exits == 0;
-    if (unseen > 0)
+    state.exits = counted_lines.exits();
+    if (auto unseen = std::count(state.exits.begin(), state.exits.end(), 0u); unseen > 0)
         result.warnings.push_back(std::to_string(unseen) +
                                   " patches were left by no line and stay dark");
 
     // Solve each band, and say where its power went.
     for (std::uint32_t band = 0; band < bands; ++band) {
-        Vector emission(n);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            auto patch = static_cast<std::size_t>(i);
-            emission[i] = static_cast<double>(direct.unshot[patch * bands + band]) *
-                          state.watts_per_quantum / run.patches.area[patch];
-        }
-        const Vector irradiance = solve_band(run, state, counted_lines, emission, band);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            auto patch = static_cast<std::size_t>(i);
+        std::vector<double> emission(run.patches.count());
+        for (std::size_t patch = 0; patch < emission.size(); ++patch)
+            emission[patch] = static_cast<double>(direct.unshot[patch * bands + band]) *
+                              state.watts_per_quantum / run.patches.area[patch];
+        const std::vector<double> irradiance = counted_lines.irradiance(emission, band);
+        for (std::size_t patch = 0; patch < emission.size(); ++patch) {
             std::size_t k = patch * bands + band;
             double quanta = run.patches.area[patch] / state.watts_per_quantum;
-            double exits = std::max(1.0, static_cast<double>(state.exits[patch]));
-            state.received[k] = std::llrint(irradiance[i] * quanta);
+            state.received[k] = std::llrint(irradiance[patch] * quanta);
             std::int64_t reflected = std::llrint(static_cast<double>(run.patches.reflectance[k]) *
                                                  static_cast<double>(state.received[k]));
             state.absorbed[band] += state.received[k] - reflected;
             state.escaped[band] +=
-                std::llrint((emission[i] * quanta + static_cast<double>(reflected)) *
-                            static_cast<double>(counted_lines.escaped[patch]) / exits);
-            state.sky[band] += std::llrint(counted_lines.sky[k] / exits * quanta);
+                std::llrint((emission[patch] * quanta + static_cast<double>(reflected)) *
+                            counted_lines.escaped(patch));
+            state.sky[band] += std::llrint(counted_lines.sky(patch, band) * quanta);
         }
         state.emitted[band] = state.absorbed[band] + state.escaped[band] - state.sky[band];
     }

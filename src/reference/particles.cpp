@@ -21,27 +21,26 @@ using Quanta = std::array<std::int64_t, max_bands>;
 
 class Walker {
 public:
-    Walker(const Run& run, const Emitters& emitters) : run_(run), emitters_(emitters) {}
+    Walker(const Run& run, const Emitters& emitters)
+        : run_(run), emitters_(emitters), cells_(run.scene, run.patches) {}
 
     // One particle, from its birth to where it is absorbed or leaves the scene.
     void walk(std::uint64_t number, unsigned worker) const {
         Random random(run_.settings.seed, stream::particles + number);
         std::size_t piece = emitters_.choose(random.uniform());
-        Emitter from = emitters_.pieces[piece];
-        double a = random.uniform(), b = random.uniform();
-        glm::dvec3 origin = point_on(run_.scene, from, a, b);
-        glm::dvec3 normal = emitter_normal(run_.scene, from);
-        std::uint32_t surface = from.surface;
+        const Emitter* from = &emitters_.pieces[piece];
         Quanta carried = birth(piece);
         WorkerTotals& totals = run_.banks.totals(worker);
         for (std::uint32_t band = 0; band < emitters_.bands; ++band)
             totals.sky[band] += carried[band];
         for (;;) {
-            a = random.uniform();
-            b = random.uniform();
-            glm::dvec3 direction = cosine_direction(normal, a, b);
-            SurfaceHit hit = run_.rays->closest(origin, direction,
-                                                std::numeric_limits<double>::infinity(), surface);
+            double p[4];
+            for (double& x : p)
+                x = random.uniform();
+            SurfaceHit hit =
+                run_.rays->closest(point_on(run_.scene, *from, p[0], p[1]),
+                                   cosine_direction(emitter_normal(run_.scene, *from), p[2], p[3]),
+                                   std::numeric_limits<double>::infinity(), from->surface);
             ++totals.counts.lines;
             std::uint32_t patch = patch_of(run_.scene, run_.patches, hit);
             if (patch == none) {
@@ -55,10 +54,7 @@ public:
                                    carried[band]);
             if (!reflect(patch, random.uniform(), carried))
                 return;
-            surface = hit.surface;
-            const Surface& met = run_.scene.surfaces[surface];
-            origin = surface_point(run_.scene, met, hit.u, hit.v);
-            normal = surface_normal(run_.scene, met) * (hit.back ? -1.0 : 1.0);
+            from = &cells_.choose(patch, random.uniform());
         }
     }
 
@@ -88,6 +84,7 @@ private:
 
     const Run& run_;
     const Emitters& emitters_;
+    const PatchCells cells_;
 };
 
 }  // namespace

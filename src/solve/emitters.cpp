@@ -93,6 +93,13 @@ Emitters PatchCells::emitters(std::uint32_t patch, std::span<const std::int64_t>
     return emitters;
 }
 
+const Emitter& PatchCells::choose(std::uint32_t patch, double at) const {
+    std::uint32_t cell = start_[patch], last = start_[patch + 1] - 1;
+    while (cell < last && at >= share_[cell])
+        at -= share_[cell++];
+    return cells_[cell];
+}
+
 glm::dvec3 point_on(const Scene& scene, const Emitter& emitter, double a, double b) {
     const Surface& surface = scene.surfaces[emitter.surface];
     if (surface.shape() == Shape::triangle) {

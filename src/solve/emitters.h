@@ -48,6 +48,9 @@ public:
     /// The cells of one patch, which has the powers given.
     Emitters emitters(std::uint32_t patch, std::span<const std::int64_t> power) const;
 
+    /// The cell of a patch that a number of [0, 1) chooses, by area.
+    const Emitter& choose(std::uint32_t patch, double at) const;
+
 private:
     std::vector<std::uint32_t> start_;  // patches + 1 offsets
     std::vector<Emitter> cells_;
