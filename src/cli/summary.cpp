@@ -33,6 +33,27 @@ std::string energy(const Balance& balance) {
     return text.str();
 }
 
+/// What the number of lines leaves open: in which order energy went along them.
+std::string how_followed(Method method, const Solution& solution) {
+    const std::string bundles = std::to_string(solution.bundles);
+    switch (method) {
+        case Method::bundles:
+            return " in " + bundles + " bundles";
+        case Method::lines:
+            if (solution.batch == 0)
+                return ", one after the other";
+            return ", up to " + std::to_string(solution.batch) + "/" + bundles +
+                   " of them from one snapshot";
+        case Method::progressive:
+            return " from patches in " + std::to_string(solution.shots) + " shots";
+        case Method::particles:
+            return " walked by particles";
+        case Method::matrix:
+            break;
+    }
+    return ", counted";
+}
+
 std::string summary(const SolveOptions& options, const Patches& patches, const Solution& solution) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
@@ -40,8 +61,7 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
     const double lines = static_cast<double>(counts.lines);
     text << "patches  " << patches.count() << '\n';
     text << "lines    " << counts.lines;
-    if (solution.bundles > 0)
-        text << " in " << solution.bundles << " bundles";
+    text << how_followed(options.solve.method, solution);
     if (solution.seconds.global > 0)
         text << ", " << std::setprecision(3) << lines / solution.seconds.global / 1e6
              << " M lines/s on " << solution.threads << " threads";

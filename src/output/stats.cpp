@@ -101,6 +101,8 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["lines"] = counts.lines;
     stats["line_spacing"] = solution.line_spacing;
     stats["batch"] = solution.batch;
+    stats["first_shot_rays"] = solution.first_shot_rays;
+    stats["shots"] = solution.shots;
     stats["hits"] = counts.hits;
     stats["transfers"] = counts.transfers;
     stats["average_list"] = ratio(hits, lines);

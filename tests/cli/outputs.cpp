@@ -63,6 +63,8 @@ TEST_CASE("table and statistics have exactly the promised columns and keys") {
                                                      "lines",
                                                      "line_spacing",
                                                      "batch",
+                                                     "first_shot_rays",
+                                                     "shots",
                                                      "hits",
                                                      "transfers",
                                                      "average_list",
@@ -211,4 +213,70 @@ TEST_CASE("info tells what the scene holds") {
     // E = π L from both sides of 1 m², because faces of an OBJ have two.
     CHECK(info["emitters"]["power"][0].get<double>() == doctest::Approx(2 * 3 * 3.14159265));
     CHECK(info["bounds"]["high"] == nlohmann::json({1.0, 1.0, 1.0}));
+}
+
+// Planted: a method that the parser maps to another, or whose settings the summary does not know.
+TEST_CASE("every method is run, named in the statistics, and told in the summary") {
+    Workplace place;
+    struct Case {
+        std::vector<std::string> arguments;
+        std::string method, told;
+    };
+    const std::vector<Case> cases = {
+        {{"--method", "bundles"}, "bundles", "bundles"},
+        {{"--method", "lines"}, "lines", "one after the other"},
+        {{"--method", "lines", "--batch", "2"}, "lines", "from one snapshot"},
+        {{"--method", "lines", "--first-shot", "exact", "--shots", "3"}, "lines", "one after"},
+        {{"--method", "progressive", "--shots", "7"}, "progressive", "in 7 shots"},
+        {{"--method", "particles"}, "particles", "walked by particles"},
+        {{"--method", "matrix"}, "matrix", "counted"},
+    };
+    for (const Case& one : cases) {
+        std::vector<std::string> arguments = {
+            "solve", place.scene(), "--patches",      "60",         "--lines",
+            "20000", "--stats",     place / "s.json", "--progress", "off"};
+        arguments.insert(arguments.end(), one.arguments.begin(), one.arguments.end());
+        Outcome outcome = run(place, arguments);
+        CAPTURE(one.told);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.out.find(one.told) != std::string::npos);
+        CHECK(outcome.out.find("balance exact") != std::string::npos);
+        CHECK(nlohmann::json::parse(read_file(place / "s.json"))["method"] == one.method);
+    }
+    // 200 000 patches would take 160 GB of counts.
+    Outcome outcome = run(place, {"solve", place.scene(), "--patches", "200000", "--method",
+                                  "matrix", "--max-memory", "1G", "--progress", "off"});
+    CHECK(outcome.code == 5);
+    CHECK(outcome.one_line("square of the patches"));
+}
+
+// Planted: lines that do not scale the error, or an error in per cent read as one in ones.
+TEST_CASE("info --predict states the error of lines and the lines of an error") {
+    Workplace place;
+    auto predict = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"info",      "--json", "--predict",
+                                              "--patches", "60",     place.scene()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        Outcome outcome = run(place, arguments);
+        CHECK(outcome.code == 0);
+        return nlohmann::json::parse(outcome.out)["prediction"];
+    };
+    auto some = predict({"--lines", "1000"}), more = predict({"--lines", "4000"});
+    CHECK(some["forms"].size() == 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+        double few = some["forms"][k]["quadratic_error"],
+               many = more["forms"][k]["quadratic_error"];
+        CHECK(few == doctest::Approx(4 * many));
+        double relative = some["forms"][k]["relative_rms"];
+        auto back = predict({"--error", std::to_string(relative)});
+        CHECK(back["forms"][k]["lines_for_error"].get<double>() ==
+              doctest::Approx(1000).epsilon(1e-3));
+    }
+    // Both ways is better than one, and with a first shot than without.
+    CHECK(some["forms"][0]["quadratic_error"] < some["forms"][1]["quadratic_error"]);
+    CHECK(some["forms"][0]["quadratic_error"] < some["forms"][2]["quadratic_error"]);
+    CHECK(run(place, {"info", place.scene(), "--lines", "5"}).code == 2);
+    CHECK(run(place, {"info", place.scene(), "--predict"}).out.find("relative RMS") !=
+          std::string::npos);
 }
