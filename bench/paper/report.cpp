@@ -272,14 +272,15 @@ void write_json(const std::string& file, const std::vector<Result>& results,
                  {"variation", spread.variation()},
                  {"doubtful", r.cell.doubtful}});
         };
+        // The reading of the reference that the table agrees with stands beside the paper's value.
         const std::string name = r.cell.variant.name;
         const char *truth = "exact solution", *counts = "[Sbert93] on the same lines";
-        if (r.cell.table == 2)
-            add(name, counts, r.to_counts, true, false);
-        add(r.cell.table == 2 ? name + ", against the exact solution" : name, truth, r.to_truth,
-            r.cell.paper > 0, true);
-        if (r.cell.table == 1)
-            add(name + ", against [Sbert93] on the same lines", counts, r.to_counts, true, false);
+        const bool by_counts = r.cell.table == 2, in_paper = r.cell.paper > 0;
+        if (r.to_counts.count > 0)
+            add(by_counts ? name : name + ", against [Sbert93] on the same lines", counts,
+                r.to_counts, by_counts, false);
+        add(by_counts ? name + ", against the exact solution" : name, truth, r.to_truth,
+            in_paper && !by_counts, true);
         const std::vector<Variant> variants = bundle_variants(r.cell.variant);
         for (std::size_t k = 0; k < variants.size(); ++k)
             add(variants[k].name, truth, r.bundles[k], false, false);
