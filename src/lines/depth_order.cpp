@@ -1,5 +1,6 @@
 #include "lines/depth_order.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -57,11 +58,15 @@ bool convex(const Scene& scene, const Surface& a, const Surface& b) {
     return height < 0;
 }
 
+bool parallel(const Scene& scene, const Surface& a, const Surface& b) {
+    return std::fabs(glm::dot(surface_normal(scene, a), surface_normal(scene, b))) > 0.9999;
+}
+
 }  // namespace
 
 void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
                      const glm::dvec3& centre, double radius, std::int32_t column, std::int32_t row,
-                     Hit* begin, Hit* end) {
+                     const std::vector<float>& slack, Hit* begin, Hit* end) {
     float tie = near_tie(projection.bundle.spacing, radius);
     Lattice line{column * fixed_one, row * fixed_one};
     auto from_behind = [&](const Hit& hit) {
@@ -74,8 +79,14 @@ void order_near_ties(const Projection& projection, const Scene& scene, const Pat
         bool touching = touch(surface_a, surface_b);
         double difference = exact_depth(projection, scene, centre, radius, surface_a, line) -
                             exact_depth(projection, scene, centre, radius, surface_b, line);
-        // Surfaces in one place differ by no more than their corners' snapping, at slopes to 16.
-        double same = touching ? 1e-14 : 16 * projection.bundle.spacing / radius / fixed_one;
+        // Surfaces of one plane differ by no more than their corners' snapping: at slopes to 16, or
+        // what their own slopes make of it where the direction grazes them. Planes that cross are
+        // in one place only on a line.
+        double same = 1e-14;
+        if (!touching && parallel(scene, surface_a, surface_b))
+            same = std::max(
+                16 * projection.bundle.spacing / radius / fixed_one,
+                static_cast<double>(slack[a.surface]) + static_cast<double>(slack[b.surface]));
         if (std::fabs(difference) > same)
             return difference < 0;
         // In one place: the air lies between a floor and what stands on it, so that the one met
@@ -87,8 +98,11 @@ void order_near_ties(const Projection& projection, const Scene& scene, const Pat
     for (Hit* k = begin + 1; k < end; ++k) {
         Hit hit = *k;
         Hit* place = k;
-        for (; place > begin && hit.depth - place[-1].depth < tie && before(hit, place[-1]);
-             --place)
+        auto near = [&](const Hit& other) {
+            return hit.depth - other.depth <
+                   std::max(tie, slack[hit.surface] + slack[other.surface]);
+        };
+        for (; place > begin && near(place[-1]) && before(hit, place[-1]); --place)
             *place = place[-1];
         *place = hit;
     }

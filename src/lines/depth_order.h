@@ -8,10 +8,11 @@ namespace parallux {
 /// snapping could move them are ordered again. Faces that share a corner by the exact depth of
 /// their snapped corners, in which two faces meet along their common edge; others, which then lie
 /// in one place, so that the one met from behind comes first (a solid that stands on a floor: the
-/// gap is between them). `begin` … `end` are sorted by depth, then surface.
+/// gap is between them). `begin` … `end` are sorted by depth, then surface; `slack[surface]` is how
+/// far snapping may have moved the depths of each.
 void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
                      const glm::dvec3& centre, double radius, std::int32_t column, std::int32_t row,
-                     Hit* begin, Hit* end);
+                     const std::vector<float>& slack, Hit* begin, Hit* end);
 
 /// Whether two surfaces share a corner.
 inline bool touch(const Surface& a, const Surface& b) {

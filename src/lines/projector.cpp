@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -38,6 +37,7 @@ struct Projector::Workspace {
     std::vector<SurfaceView> views;
     std::vector<Span> spans;
     std::vector<std::uint32_t> cursor;
+    std::vector<float> slack;  // one a surface; only those of the present tile are up to date
 };
 
 std::shared_ptr<Projector::Workspace> Projector::make_workspace() {
@@ -110,9 +110,17 @@ bool before(const Hit& a, const Hit& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.surface < b.surface;
 }
 
-// Sorts a list and returns the smallest step of depth in it.
-float sort_hits(Hit* begin, Hit* end) {
-    float smallest = std::numeric_limits<float>::infinity();
+// How far snapping may have moved a surface's depths: its corners move by half a fixed place in
+// either axis at most; twice that.
+float slack_of(const SurfaceView& view) {
+    float per_column = view.depth_u * view.u_column + view.depth_v * view.v_column;
+    float per_row = view.depth_u * view.u_row + view.depth_v * view.v_row;
+    return (std::fabs(per_column) + std::fabs(per_row)) / static_cast<float>(fixed_one);
+}
+
+// Sorts a list. Returns whether any two hits are so near each other that snapping and rounding may
+// have turned them.
+bool sort_hits(Hit* begin, Hit* end, float tie, const std::vector<float>& slack) {
     // Lists are mostly 2 to 4 long.
     if (end - begin > 24) {
         std::sort(begin, end, before);
@@ -125,9 +133,12 @@ float sort_hits(Hit* begin, Hit* end) {
             *place = hit;
         }
     }
-    for (Hit* k = begin + 1; k < end; ++k)
-        smallest = std::min(smallest, k->depth - k[-1].depth);
-    return smallest;
+    for (Hit* k = begin + 1; k < end; ++k) {
+        float step = k->depth - k[-1].depth;
+        if (step < tie || step < slack[k->surface] + slack[k[-1].surface])
+            return true;
+    }
+    return false;
 }
 
 // The runs of a surface's lines in a tile, row by row: in each row the edges' columns, sorted,
@@ -183,6 +194,7 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
     // Fill the surfaces of the tile with runs, and count the hits of every line.
     workspace.views.clear();
     workspace.spans.clear();
+    workspace.slack.resize(scene_.surfaces.size());
     lists.start.assign(lines + 1, 0);
     for (std::uint32_t k = projection.tile_start[tile]; k < projection.tile_start[tile + 1]; ++k) {
         std::uint32_t s = projection.tile_surfaces[k];
@@ -196,8 +208,10 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
                          for (std::int32_t column = begin - left; column < end - left; ++column)
                              ++count[column];
                      });
-        if (any)
+        if (any) {
             workspace.views.push_back(view_of(projection, scene_, patches_, s));
+            workspace.slack[s] = slack_of(workspace.views.back());
+        }
     }
 
     // Place every hit in its line's list.
@@ -217,10 +231,11 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
     for (std::size_t line = 0; line < lines; ++line) {
         Hit* begin = lists.hits.data() + lists.start[line];
         Hit* end = lists.hits.data() + lists.start[line + 1];
-        if (sort_hits(begin, end) < tie)
+        if (sort_hits(begin, end, tie, workspace.slack))
             order_near_ties(projection, scene_, patches_, centre_, radius_,
                             left + static_cast<std::int32_t>(line) % columns,
-                            top + static_cast<std::int32_t>(line) / columns, begin, end);
+                            top + static_cast<std::int32_t>(line) / columns, workspace.slack, begin,
+                            end);
     }
 }
 
