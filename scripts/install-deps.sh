@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
     g++ cmake ninja-build
     libtbb-dev libembree-dev libopenimageio-dev openimageio-tools libglm-dev
-    nlohmann-json3-dev libcli11-dev libeigen3-dev
+    nlohmann-json3-dev libcli11-dev libeigen3-dev libhwy-dev
     doctest-dev gnuplot-nox
     clang-format
 )

@@ -58,12 +58,45 @@ struct IntersectionLists {
     std::size_t lines() const { return start.size() - 1; }
 };
 
+/// Patches one after the other; `ids` is longer than `count`.
+struct PatchList {
+    std::vector<std::uint32_t> ids;
+    std::size_t count = 0;
+};
+
+/// What the lists of some lines come to when nothing but neighbours matters: who exchanges with
+/// whom.
+struct TilePairs {
+    PatchList from, to;    ///< from[k] and to[k] face each other on a line, in its direction
+    PatchList first;       ///< patches that a line comes upon from outside the scene
+    PatchList last;        ///< patches from which a line leaves it
+    PatchList into_backs;  ///< patches whose neighbour along the direction is an inert back
+    PatchList from_backs;  ///< patches whose neighbour against the direction is one
+    std::uint64_t lines = 0, nonempty = 0, hits = 0, odd = 0;
+
+    void clear();
+    /// Makes room for so many more hits.
+    void reserve(std::size_t more_hits);
+
+    /// Where the lists stand, and back to there.
+    struct Mark {
+        std::size_t from, first, last, into_backs, from_backs;
+        std::uint64_t nonempty, hits, odd;
+    };
+    Mark mark() const;
+    void back_to(const Mark& mark);
+};
+
+/// The pairs of ordered lists; appended.
+void append_pairs(const IntersectionLists& lists, TilePairs& pairs);
+
 /// Lines of one bundle that are worked on together: a tile's side.
 inline constexpr std::int32_t tile_side = 64;
 
 /// A bundle's view of the scene: snapped corners and the surfaces of every tile.
 struct Projection {
     Bundle bundle;
+    double radius = 1;                   ///< of the scene, metres
     std::int32_t left = 0, top = 0;      ///< first column and row
     std::int32_t columns = 0, rows = 0;  ///< of the rectangle that holds the scene
     std::int32_t tiles_x = 0, tiles_y = 0;
@@ -74,10 +107,13 @@ struct Projection {
     std::vector<Corner> corners;            ///< one a position of the scene
     std::vector<std::uint32_t> tile_start;  ///< tiles + 1 offsets into tile_surfaces
     std::vector<std::uint32_t> tile_surfaces;
+    std::vector<std::uint32_t> order;  ///< all surfaces by depth, where planes can tell; else empty
 
     std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * tiles_y; }
     std::uint64_t lines() const { return static_cast<std::uint64_t>(columns) * rows; }
 };
+
+class PlaneSides;
 
 /// Finds all crossings of a bundle by rasterising the surfaces. Corners are snapped to a grid of
 /// 1/4096 spacing and rows are filled by exact integer arithmetic, half open on either side, so
@@ -100,6 +136,11 @@ public:
     void lists(const Projection& projection, std::size_t tile, Workspace& workspace,
                IntersectionLists& lists) const;
 
+    /// The same lines as pairs. Where surfaces are few they are followed in the order of their
+    /// planes, without lists; lines for which that order is not certain are looked at by lists().
+    void pairs(const Projection& projection, std::size_t tile, Workspace& workspace,
+               TilePairs& pairs) const;
+
     const glm::dvec3& centre() const { return centre_; }
     double radius() const { return radius_; }
 
@@ -108,6 +149,7 @@ private:
     const Patches& patches_;
     glm::dvec3 centre_{0};
     double radius_ = 0;
+    std::shared_ptr<const PlaneSides> sides_;  // null: too many surfaces
 };
 
 /// Throws Fault::usage when a spacing gives more than 2¹⁸ lines across a scene of this radius.

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "parallux/aligned.h"
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 
@@ -26,6 +27,11 @@ struct LineCounts {
     LineCounts& operator+=(const LineCounts& other);
 };
 
+/// Places that a patch takes where a count of exits lies behind its bands: 2, 4, 8 or 12.
+constexpr std::uint32_t lanes(std::uint32_t bands) {
+    return bands < 2 ? 2 : bands < 4 ? 4 : bands < 8 ? 8 : 12;
+}
+
 /// Where the energy is. Arrays hold bands together: unshot[patch * bands + band].
 struct TransferState {
     std::uint32_t bands = 0;
@@ -33,7 +39,9 @@ struct TransferState {
     std::vector<std::int64_t> unshot;    ///< reflected power not yet sent on
     std::vector<std::int64_t> received;  ///< power that arrived in the global pass
     std::vector<std::int64_t> emission;  ///< sent with every exit, all run long
-    std::vector<std::int64_t> quanta;    ///< carried by an exit of this batch: emission + share
+    /// Carried by an exit of this batch: emission + share. quanta[patch * lanes + band]; behind the
+    /// bands stands 1, the exit itself, so that one addition both sends and counts.
+    QuantaArray quanta;
     std::vector<std::uint64_t> exits;    ///< lines that left the patch so far
     std::vector<std::int64_t> sky;       ///< band totals of what the sky sent in
     std::vector<std::int64_t> emitted;   ///< band totals of emission quanta sent
@@ -41,14 +49,14 @@ struct TransferState {
     std::vector<std::int64_t> escaped;
 };
 
-/// What one or more workers add to the state within a batch.
+/// What one or more workers add to the state within a batch: received[patch * lanes + band], and
+/// behind the bands the exits.
 struct Deltas {
-    std::vector<std::int64_t> received;
-    std::vector<std::uint32_t> exits;
+    QuantaArray received;
 };
 
-/// A worker's own totals within a batch.
-struct WorkerTotals {
+/// A worker's own totals within a batch; no two share a cache line.
+struct alignas(64) WorkerTotals {
     LineCounts counts;
     std::vector<std::int64_t> escaped = std::vector<std::int64_t>(max_bands, 0);
     /// What came in from outside the exchange: from the sky, or from a light's first shot.
@@ -77,6 +85,10 @@ void share_unshot(TransferState& state, const Patches& patches, double cell, std
 /// deltas at this time, so that additions are atomic.
 void exchange(const IntersectionLists& lists, const TransferState& state, Direction direction,
               std::span<const SkyQuanta> sky, Deltas& deltas, bool shared, WorkerTotals& totals);
+
+/// The same for the pairs of a bundle's lines, all under one sky.
+void exchange_pairs(const TilePairs& pairs, const TransferState& state, Direction direction,
+                    const SkyQuanta* sky, Deltas& deltas, bool shared, WorkerTotals& totals);
 
 /// Follows the lists one line after the other, as the paper prints it: of every pair the first
 /// sends the second all that is unshot, and its emission quantum (bidirectional: both do, at once);

@@ -84,9 +84,7 @@ void order_near_ties(const Projection& projection, const Scene& scene, const Pat
         // in one place only on a line.
         double same = 1e-14;
         if (!touching && parallel(scene, surface_a, surface_b))
-            same = std::max(
-                16 * projection.bundle.spacing / radius / fixed_one,
-                static_cast<double>(slack[a.surface]) + static_cast<double>(slack[b.surface]));
+            same = std::max(same_place(projection), slack[a.surface] + slack[b.surface]);
         if (std::fabs(difference) > same)
             return difference < 0;
         // In one place: the air lies between a floor and what stands on it, so that the one met

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lines/edge_walk.h"
 #include "parallux/lines.h"
 
 namespace parallux {
@@ -21,6 +22,12 @@ inline bool touch(const Surface& a, const Surface& b) {
             if (k == l && k != none)
                 return true;
     return false;
+}
+
+/// Surfaces without a common corner whose depths differ by less than this, in radii, lie in one
+/// place: no more than their corners' snapping, at slopes to 16.
+inline float same_place(const Projection& projection) {
+    return static_cast<float>(16 * projection.bundle.spacing / projection.radius / fixed_one);
 }
 
 /// Depths closer than this, in radii, are near ties: an eighth of a line spacing.

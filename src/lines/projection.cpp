@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/plane_sides.h"
 #include "lines/rectangle.h"
 #include "parallux/error.h"
 #include "parallux/lines.h"
@@ -26,11 +27,14 @@ Projector::Projector(const Scene& scene, const Patches& patches)
     LineSphere sphere = line_sphere(scene);
     centre_ = sphere.centre;
     radius_ = sphere.radius;
+    if (scene.surfaces.size() <= PlaneSides::most_surfaces)
+        sides_ = std::make_shared<PlaneSides>(scene);
 }
 
 void Projector::project(const Bundle& bundle, Projection& projection) const {
     check_spacing(bundle.spacing, radius_);
     projection.bundle = bundle;
+    projection.radius = radius_;
 
     // Snap every corner to the fixed-point grid.
     projection.corners.resize(scene_.positions.size());
@@ -56,10 +60,14 @@ void Projector::project(const Bundle& bundle, Projection& projection) const {
     projection.tiles_x = (projection.columns + tile_side - 1) / tile_side;
     projection.tiles_y = (projection.rows + tile_side - 1) / tile_side;
 
+    if (sides_)
+        sides_->order(projection, scene_, projection.order);
+
     // Sort the surfaces into the tiles that their rectangles touch: count, then place.
     projection.tile_start.assign(projection.tiles() + 1, 0);
     auto each_tile = [&](auto&& visit) {
-        for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
+        for (std::uint32_t k = 0; k < scene_.surfaces.size(); ++k) {
+            std::uint32_t s = projection.order.empty() ? k : projection.order[k];
             Rectangle r = rectangle_of(projection, scene_.surfaces[s]);
             if (r.empty())
                 continue;

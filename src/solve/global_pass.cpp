@@ -10,10 +10,11 @@ namespace parallux {
 
 namespace {
 
-// A worker's buffers, kept from tile to tile.
-struct Buffers {
+// A worker's buffers, kept from tile to tile; no two workers write to one cache line.
+struct alignas(64) Buffers {
     std::shared_ptr<Projector::Workspace> workspace = Projector::make_workspace();
     IntersectionLists lists;
+    TilePairs pairs;
     std::vector<glm::dvec3> directions;
     std::vector<SkyQuanta> sky;
 };
@@ -76,12 +77,12 @@ public:
 private:
     void follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
         Buffers& buffers = buffers_[worker];
-        projector_.lists(projection, tile, *buffers.workspace, buffers.lists);
-        buffers.sky.clear();
+        projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
+        SkyQuanta sky;
         if (lit_)
-            buffers.sky.push_back(sky_quanta(scene_, plan_, projection.bundle.direction));
-        exchange(buffers.lists, state_, settings_.direction, buffers.sky, banks_.of(worker),
-                 banks_.shared(), banks_.totals(worker));
+            sky = sky_quanta(scene_, plan_, projection.bundle.direction);
+        exchange_pairs(buffers.pairs, state_, settings_.direction, lit_ ? &sky : nullptr,
+                       banks_.of(worker), banks_.shared(), banks_.totals(worker));
     }
 
     const Scene& scene_;

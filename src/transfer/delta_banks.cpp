@@ -14,15 +14,14 @@ unsigned DeltaBanks::count(std::size_t patches, std::uint32_t bands, unsigned wo
 
 DeltaBanks::DeltaBanks(std::size_t patches, std::uint32_t bands, unsigned workers,
                        std::uint64_t allowed)
-    : banks_(count(patches, bands, workers, allowed)), totals_(workers) {
+    : bands_(bands), banks_(count(patches, bands, workers, allowed)), totals_(workers) {
     for (Deltas& bank : banks_) {
-        bank.received.assign(patches * bands, 0);
-        bank.exits.assign(patches, 0);
+        bank.received.assign(patches * lanes(bands), 0);
     }
 }
 
 void DeltaBanks::receive(unsigned worker, std::size_t k, std::int64_t quanta) {
-    std::int64_t& target = of(worker).received[k];
+    std::int64_t& target = of(worker).received[k / bands_ * lanes(bands_) + k % bands_];
     if (shared())
         std::atomic_ref<std::int64_t>(target).fetch_add(quanta, std::memory_order_relaxed);
     else
@@ -33,7 +32,7 @@ void DeltaBanks::collect(std::vector<std::int64_t>& received, std::vector<std::i
                          std::vector<std::int64_t>& escaped) {
     for (Deltas& bank : banks_)
         for (std::size_t k = 0; k < received.size(); ++k)
-            received[k] += std::exchange(bank.received[k], 0);
+            received[k] += std::exchange(bank.received[k / bands_ * lanes(bands_) + k % bands_], 0);
     for (WorkerTotals& worker : totals_)
         for (std::size_t band = 0; band < came_in.size(); ++band) {
             came_in[band] += std::exchange(worker.sky[band], 0);

@@ -27,12 +27,13 @@ public:
     std::vector<WorkerTotals>& all_totals() { return totals_; }
 
     static std::uint64_t bytes_a_bank(std::size_t patches, std::uint32_t bands) {
-        return patches * (bands * sizeof(std::int64_t) + sizeof(std::uint32_t));
+        return patches * lanes(bands) * sizeof(std::int64_t);
     }
     static unsigned count(std::size_t patches, std::uint32_t bands, unsigned workers,
                           std::uint64_t allowed);
 
 private:
+    std::uint32_t bands_;
     std::vector<Deltas> banks_;
     std::vector<WorkerTotals> totals_;
 };

@@ -32,16 +32,19 @@ struct Exchange {
     Deltas& deltas;
     WorkerTotals& totals;
 
-    void leave(std::uint32_t patch) { add<shared>(deltas.exits[patch], 1u); }
+    void leave(std::uint32_t patch) {
+        add<shared>(deltas.received[static_cast<std::size_t>(patch) * lanes(bands) + bands],
+                    std::int64_t(1));
+    }
 
     void receive(std::uint32_t patch, const std::int64_t* energy) {
-        std::int64_t* received = &deltas.received[static_cast<std::size_t>(patch) * bands];
+        std::int64_t* received = &deltas.received[static_cast<std::size_t>(patch) * lanes(bands)];
         for (std::uint32_t band = 0; band < bands; ++band)
             add<shared>(received[band], energy[band]);
     }
 
     const std::int64_t* carried(std::uint32_t patch) const {
-        return quanta + static_cast<std::size_t>(patch) * bands;
+        return quanta + static_cast<std::size_t>(patch) * lanes(bands);
     }
 
     // Energy that meets nothing, or an inert back, goes no further.

@@ -16,8 +16,11 @@ TransferState dark_state(const Patches& patches, double watts_per_quantum) {
     TransferState state;
     state.bands = patches.bands;
     state.watts_per_quantum = watts_per_quantum;
-    for (auto* array : {&state.unshot, &state.received, &state.emission, &state.quanta})
+    for (auto* array : {&state.unshot, &state.received, &state.emission})
         array->assign(values, 0);
+    state.quanta.assign(patches.count() * lanes(patches.bands), 0);
+    for (std::size_t patch = 0; patch < patches.count(); ++patch)
+        state.quanta[patch * lanes(patches.bands) + patches.bands] = 1;
     for (auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
         totals->assign(patches.bands, 0);
     state.exits.assign(patches.count(), 0);
@@ -26,17 +29,18 @@ TransferState dark_state(const Patches& patches, double watts_per_quantum) {
 
 void share_unshot(TransferState& state, const Patches& patches, double cell, std::uint32_t batch,
                   unsigned threads) {
-    parallel_for(
-        threads, patches.count(), patches_a_piece,
-        [&](std::size_t begin, std::size_t end, unsigned) {
-            for (std::size_t patch = begin; patch < end; ++patch) {
-                // E[exits a bundle] · cell / area = |cos θ|: every direction gets its due.
-                double share = std::min(1.0, cell / patches.area[patch]) / batch;
-                for (std::size_t k = patch * state.bands; k < (patch + 1) * state.bands; ++k)
-                    state.quanta[k] = state.emission[k] +
-                                      std::llrint(static_cast<double>(state.unshot[k]) * share);
-            }
-        });
+    parallel_for(threads, patches.count(), patches_a_piece,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     for (std::size_t patch = begin; patch < end; ++patch) {
+                         // E[exits a bundle] · cell / area = |cos θ|: every direction gets its due.
+                         double share = std::min(1.0, cell / patches.area[patch]) / batch;
+                         std::int64_t* quanta = &state.quanta[patch * lanes(state.bands)];
+                         for (std::size_t k = patch * state.bands; k < (patch + 1) * state.bands;
+                              ++k)
+                             *quanta++ = state.emission[k] +
+                                         std::llrint(static_cast<double>(state.unshot[k]) * share);
+                     }
+                 });
 }
 
 void merge(TransferState& state, const Patches& patches, std::vector<Deltas>& deltas,
@@ -51,10 +55,12 @@ void merge(TransferState& state, const Patches& patches, std::vector<Deltas>& de
             for (std::size_t patch = begin; patch < end; ++patch) {
                 std::int64_t exits = 0;
                 std::int64_t received[max_bands] = {};
+                const std::int64_t* quanta = &state.quanta[patch * lanes(bands)];
                 for (Deltas& delta : deltas) {
-                    exits += std::exchange(delta.exits[patch], 0u);
+                    std::int64_t* own = &delta.received[patch * lanes(bands)];
+                    exits += std::exchange(own[bands], 0);
                     for (std::uint32_t band = 0; band < bands; ++band)
-                        received[band] += std::exchange(delta.received[patch * bands + band], 0);
+                        received[band] += std::exchange(own[band], 0);
                 }
                 state.exits[patch] += static_cast<std::uint64_t>(exits);
                 for (std::uint32_t band = 0; band < bands; ++band) {
@@ -63,7 +69,7 @@ void merge(TransferState& state, const Patches& patches, std::vector<Deltas>& de
                         std::llrint(static_cast<double>(patches.reflectance[k]) *
                                     static_cast<double>(received[band]));
                     // The emission was never part of unshot; only the share leaves it.
-                    state.unshot[k] += reflected - exits * (state.quanta[k] - state.emission[k]);
+                    state.unshot[k] += reflected - exits * (quanta[band] - state.emission[k]);
                     state.received[k] += received[band];
                     absorbed[piece + band] += received[band] - reflected;
                     emitted[piece + band] += exits * state.emission[k];

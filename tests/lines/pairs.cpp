@@ -1,0 +1,119 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lines/painter.h"
+#include "parallux/lines.h"
+#include "support/hand_made.h"
+
+using namespace parallux;
+using namespace parallux::test;
+
+namespace {
+
+// A pair list as sorted values, whatever its order.
+std::vector<std::uint64_t> sorted(const PatchList& a, const PatchList* b = nullptr) {
+    std::vector<std::uint64_t> values;
+    for (std::size_t k = 0; k < a.count; ++k)
+        values.push_back(std::uint64_t(a.ids[k]) << 32 | (b ? b->ids[k] : 0));
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+// Both ways to the pairs of every tile of some bundles agree: painted, and by ordered lists.
+void compare(const Scene& scene, double lines_across, std::size_t& pairs_seen) {
+    Patches patches = make_patches(scene);
+    Projector projector(scene, patches);
+    auto workspace = Projector::make_workspace();
+    Projection projection;
+    IntersectionLists lists;
+    for (std::uint64_t b = 0; b < 60; ++b) {
+        Bundle bundle =
+            make_bundle({5, 60, DirectionSet::random, 2 * projector.radius() / lines_across}, b);
+        if (b % 10 == 0) {
+            // Along an axis: faces seen from their edges, corners on lines.
+            bundle.direction = {b % 20 ? 1 : 0, b % 20 ? 0 : 1, 0};
+            bundle.x = {0, 0, 1};
+            bundle.y = glm::dvec3(bundle.direction.y, -bundle.direction.x, 0);
+            bundle.offset_x = bundle.offset_y = 0;
+        }
+        projector.project(bundle, projection);
+        for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
+            TilePairs painted, listed;
+            projector.pairs(projection, tile, *workspace, painted);
+            projector.lists(projection, tile, *workspace, lists);
+            append_pairs(lists, listed);
+            REQUIRE(painted.lines == listed.lines);
+            REQUIRE(painted.nonempty == listed.nonempty);
+            REQUIRE(painted.hits == listed.hits);
+            REQUIRE(painted.odd == listed.odd);
+            REQUIRE(sorted(painted.from, &painted.to) == sorted(listed.from, &listed.to));
+            REQUIRE(sorted(painted.first) == sorted(listed.first));
+            REQUIRE(sorted(painted.last) == sorted(listed.last));
+            REQUIRE(sorted(painted.into_backs) == sorted(listed.into_backs));
+            REQUIRE(sorted(painted.from_backs) == sorted(listed.from_backs));
+            pairs_seen += painted.from.count;
+        }
+    }
+}
+
+Scene furnished(bool two_sided) {
+    Scene scene = room(grey(0.5, 0, two_sided), 7);
+    add_turned_cube(scene, {0.4, 0.5, 0.45}, 0.3, 3, grey(0.3, 0, two_sided));
+    add_turned_cube(scene, {0.7, 0.3, 0.7}, 0.15, 2, grey(0.3));
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("painted tiles have the very pairs of the ordered lists") {
+    // Rooms with solids, one- and two-sided, from coarse to fine lines. Fails (planted, seen) when
+    // the order of two planes is turned, when an unsure line is not looked at again, when a step
+    // without slack counts as certain, or when a cell differs from cell_at() by one.
+    for (bool two_sided : {false, true})
+        for (double lines : {7.0, 60.0, 500.0}) {
+            std::size_t pairs = 0;
+            compare(furnished(two_sided), lines, pairs);
+            CHECK(pairs > 100);
+        }
+}
+
+TEST_CASE("solids that stand on a floor, cross each other, or ring around are painted right") {
+    // Coincident faces, planes that no order parts, and three bars in a ring: the order by planes
+    // fails, and the depths must tell. Fails when the marks of unsure lines are dropped.
+    Scene scene = room(grey(0.5), 5);
+    auto box = [&](glm::dvec3 low, glm::dvec3 high) {
+        scene.materials.push_back(grey(0.4));
+        std::uint32_t m = static_cast<std::uint32_t>(scene.materials.size() - 1);
+        add_box(scene, [&](glm::dvec3 p) { return low + p * (high - low); }, false, 2,
+                {m, m, m, m, m, m});
+    };
+    box({0.1, 0.1, 0}, {0.3, 0.3, 0.2});       // on the floor
+    box({0.15, 0.15, 0.1}, {0.4, 0.2, 0.15});  // through it
+    box({0.5, 0.5, 0.5}, {0.9, 0.55, 0.52});   // a ring of three bars
+    box({0.5, 0.5, 0.51}, {0.55, 0.9, 0.53});
+    box({0.52, 0.5, 0.49}, {0.54, 0.9, 0.9});
+    std::size_t pairs = 0;
+    compare(scene, 200, pairs);
+    CHECK(pairs > 100);
+}
+
+TEST_CASE("triangles are painted as they are listed") {
+    Scene scene;
+    scene.bands = 1;
+    scene.materials = {grey(0.5)};
+    scene.objects = {"tetrahedron"};
+    scene.positions = {{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}, {0.3, 0.2, 1}};
+    for (auto corners : {std::array<std::uint32_t, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+        Surface surface;
+        surface.corner = {corners[0], corners[1], corners[2], none};
+        surface.grid_u = surface.grid_v = 9;
+        scene.surfaces.push_back(surface);
+    }
+    scene.materials[0].two_sided = true;
+    std::size_t pairs = 0;
+    compare(scene, 300, pairs);
+    CHECK(pairs > 100);
+}
