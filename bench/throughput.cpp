@@ -32,6 +32,7 @@ void measure(const Scene& scene, const Patches& patches, std::uint64_t bundles, 
     SolveSettings settings;
     settings.method = row.engine == "bundle" ? Method::bundles : Method::lines;
     settings.first_shot = FirstShot::off;
+    settings.batch = settings.method == Method::lines ? 16 : 0;  // both from snapshots
     settings.threads = row.threads;
     // Independent lines are slower: a tenth of them is enough to time.
     settings.bundles =
