@@ -70,8 +70,8 @@ Scene furnished(bool two_sided) {
 
 TEST_CASE("painted tiles have the very pairs of the ordered lists") {
     // Rooms with solids, one- and two-sided, from coarse to fine lines. Fails (planted, seen) when
-    // the order of two planes is turned, when an unsure line is not looked at again, when a step
-    // without slack counts as certain, or when a cell differs from cell_at() by one.
+    // an unsure line is not looked at again, when a step without slack counts as certain, or when a
+    // cell differs from cell_at(). A wrong order of two planes alone only makes lines unsure.
     for (bool two_sided : {false, true})
         for (double lines : {7.0, 60.0, 500.0}) {
             std::size_t pairs = 0;

@@ -62,9 +62,8 @@ SolveSettings settings_of(const Form& form, std::uint64_t lines) {
 TEST_CASE("every method meets the exact answer of a box on every patch") {
     // 24 seeds each, one Šidák bound for all. Fails (planted, seen) when the unshot energy of a
     // line is not put to 0, when bidirectional pairs send what they have just received, when a shot
-    // takes the power of its patch twice, when a particle's power is not scaled by ρ / q, when n_i
-    // counts one end of a line only. Control: with half the reflectance of one wall it must be
-    // seen.
+    // leaves the power with its patch, when particles survive 3 % too rarely, when n_i counts one
+    // end of a line only. Control: with half the reflectance of one wall it must be seen.
     Scene scene = box();
     Patches patches = make_patches(scene);
     Eigen::MatrixXd factors = exact_factors(scene, patches);
@@ -88,8 +87,8 @@ TEST_CASE("every method meets the exact answer of a box on every patch") {
 }
 
 TEST_CASE("every method: equal bits on any number of threads, residual 0, open and closed, RGB") {
-    // Fails when lines are followed in the order in which threads finish them, when a walk draws
-    // from its worker's numbers, or when a shot rounds its power away (each planted and seen).
+    // Fails (planted, seen) when the lines of a round are numbered from its own start, or when half
+    // of what an exact shot reflects is lost.
     for (bool open : {false, true}) {
         Scene scene = box();
         scene.bands = 3;
