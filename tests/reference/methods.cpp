@@ -131,7 +131,7 @@ TEST_CASE("every method: equal bits on any number of threads, residual 0, open a
 }
 
 TEST_CASE("every method under an open sky agrees with bundles") {
-    // Fails when the sky's share of a method is missing or doubled: a mean 20 % off.
+    // Fails (planted, seen) when a method leaves the sky out.
     Scene scene = box();
     scene.surfaces.pop_back();
     scene.sky.kind = Sky::Kind::uniform;
@@ -149,8 +149,8 @@ TEST_CASE("every method under an open sky agrees with bundles") {
 }
 
 TEST_CASE("an exact first shot counts what is hidden, and keeps every quantum") {
-    // A cube in the way: against a first shot of many rays. Fails when shadow rays are left out
-    // (planted: the share always 1: 8 standard errors).
+    // A cube in the way: against a first shot of many rays. Fails (planted, seen) when shadow rays
+    // are left out.
     Scene scene = room({grey(0.5, 1), grey(0), grey(0), grey(0), grey(0), grey(0)}, 4);
     add_turned_cube(scene, {0.5, 0.5, 0.5}, 0.4, 2, grey(0));
     Patches patches = make_patches(scene);

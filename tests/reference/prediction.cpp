@@ -57,8 +57,8 @@ TEST_CASE("the error estimated by bundles is the formula's with exact form facto
 
 TEST_CASE("the formula foretells the error and the spread of bidirectional lines") {
     // 54 patches, 40 000 lines, 200 seeds. The error within 5 %, its coefficient of variation (0.22
-    // in theory, known to 1 / √400 of itself here) within 4 of its standard errors. The control: a
-    // formula that forgets 2 E ρ H is 9 % lower.
+    // in theory, known to 1 / √400 of itself here) within 4 of its standard errors. Fails
+    // (planted, seen) when the formula forgets 2 E ρ H.
     Scene scene = lit_cube(3);
     Patches patches = make_patches(scene);
     ErrorModel model = model_of(scene, patches, Direction::bidirectional);
