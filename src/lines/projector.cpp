@@ -7,6 +7,7 @@
 #include "lines/fill_surface.h"
 #include "lines/sort_hits.h"
 #include "lines/surface_view.h"
+#include "lines/tile_bounds.h"
 #include "lines/workspace.h"
 #include "parallux/lines.h"
 
@@ -18,14 +19,10 @@ std::shared_ptr<Projector::Workspace> Projector::make_workspace() {
 
 void Projector::lists(const Projection& projection, std::size_t tile, Workspace& workspace,
                       IntersectionLists& lists) const {
-    std::int32_t left =
-        projection.left + static_cast<std::int32_t>(tile % projection.tiles_x) * tile_side;
-    std::int32_t top =
-        projection.top + static_cast<std::int32_t>(tile / projection.tiles_x) * tile_side;
-    std::int32_t right = std::min(left + tile_side, projection.left + projection.columns);
-    std::int32_t bottom = std::min(top + tile_side, projection.top + projection.rows);
-    std::int32_t columns = right - left;
-    std::size_t lines = static_cast<std::size_t>(columns) * (bottom - top);
+    const TileBounds bounds = tile_bounds(projection, tile);
+    const std::int32_t left = bounds.left, top = bounds.top;
+    const std::int32_t columns = bounds.columns();
+    const std::size_t lines = bounds.lines();
 
     // Fill the surfaces of the tile with runs, and count the hits of every line.
     workspace.views.clear();
@@ -36,7 +33,7 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
         std::uint32_t s = projection.tile_surfaces[k];
         std::uint32_t view = static_cast<std::uint32_t>(workspace.views.size());
         bool any = false;
-        fill_surface(projection, scene_.surfaces[s], left, right, top, bottom,
+        fill_surface(projection, scene_.surfaces[s], left, bounds.right, top, bounds.bottom,
                      [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
                          any = true;
                          workspace.spans.push_back({view, row - top, begin - left, end - left});

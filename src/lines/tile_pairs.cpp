@@ -4,6 +4,7 @@
 #include "lines/fill_surface.h"
 #include "lines/painter.h"
 #include "lines/sort_hits.h"
+#include "lines/tile_bounds.h"
 #include "lines/workspace.h"
 
 namespace parallux {
@@ -75,6 +76,38 @@ bool paintable(const Projection& projection, std::size_t tile) {
            projection.tile_start[tile + 1] - projection.tile_start[tile] <= 96;
 }
 
+// Fills the surfaces of a tile, in their order, with runs of lines, and deals the runs to their
+// rows.
+void fill_rows(const Projection& projection, const Scene& scene, const Patches& patches,
+               std::size_t tile, const TileBounds& bounds, Projector::Workspace& work) {
+    work.views.clear();
+    work.spans.clear();
+    work.slack.resize(scene.surfaces.size());
+    work.row_start.assign(static_cast<std::size_t>(bounds.rows()) + 1, 0);
+    for (std::uint32_t k = projection.tile_start[tile]; k < projection.tile_start[tile + 1]; ++k) {
+        std::uint32_t s = projection.tile_surfaces[k];
+        std::uint32_t view = static_cast<std::uint32_t>(work.views.size());
+        std::size_t before = work.spans.size();
+        fill_surface(projection, scene.surfaces[s], bounds.left, bounds.right, bounds.top,
+                     bounds.bottom, [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
+                         work.spans.push_back(
+                             {view, row - bounds.top, begin - bounds.left, end - bounds.left});
+                         ++work.row_start[static_cast<std::size_t>(row - bounds.top) + 1];
+                     });
+        if (work.spans.size() > before) {
+            work.views.push_back(view_of(projection, scene, patches, s));
+            work.slack[s] = work.views.back().moved;
+        }
+    }
+    for (std::size_t row = 1; row < work.row_start.size(); ++row)
+        work.row_start[row] += work.row_start[row - 1];
+    work.cursor.assign(work.row_start.begin(), work.row_start.end() - 1);
+    work.row_spans.resize(work.spans.size());
+    for (const Span& span : work.spans)
+        work.row_spans[work.cursor[static_cast<std::size_t>(span.row)]++] = {span.view, span.begin,
+                                                                             span.end};
+}
+
 // The lists of the unsure lines of a row, as lists() would have them.
 void list_unsure(const Projection& projection, const Scene& scene, const Patches& patches,
                  const glm::dvec3& centre, double radius, Projector::Workspace& work,
@@ -109,47 +142,13 @@ void Projector::pairs(const Projection& projection, std::size_t tile, Workspace&
         append_pairs(work.unsure, pairs);
         return;
     }
-    std::int32_t left =
-        projection.left + static_cast<std::int32_t>(tile % projection.tiles_x) * tile_side;
-    std::int32_t top =
-        projection.top + static_cast<std::int32_t>(tile / projection.tiles_x) * tile_side;
-    std::int32_t right = std::min(left + tile_side, projection.left + projection.columns);
-    std::int32_t bottom = std::min(top + tile_side, projection.top + projection.rows);
-    std::int32_t columns = right - left, rows = bottom - top;
-    pairs.lines = static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
-
-    // Fill the surfaces in their order with runs of lines.
-    work.views.clear();
-    work.spans.clear();
-    work.slack.resize(scene_.surfaces.size());
-    work.row_start.assign(static_cast<std::size_t>(rows) + 1, 0);
-    for (std::uint32_t k = projection.tile_start[tile]; k < projection.tile_start[tile + 1]; ++k) {
-        std::uint32_t s = projection.tile_surfaces[k];
-        std::uint32_t view = static_cast<std::uint32_t>(work.views.size());
-        std::size_t before = work.spans.size();
-        fill_surface(projection, scene_.surfaces[s], left, right, top, bottom,
-                     [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
-                         work.spans.push_back({view, row - top, begin - left, end - left});
-                         ++work.row_start[static_cast<std::size_t>(row - top) + 1];
-                     });
-        if (work.spans.size() > before) {
-            work.views.push_back(view_of(projection, scene_, patches_, s));
-            work.slack[s] = work.views.back().moved;
-        }
-    }
-
-    // Deal the runs to their rows; those of a row stay in the order of the surfaces.
-    for (std::int32_t row = 0; row < rows; ++row)
-        work.row_start[static_cast<std::size_t>(row) + 1] +=
-            work.row_start[static_cast<std::size_t>(row)];
-    work.cursor.assign(work.row_start.begin(), work.row_start.end() - 1);
-    work.row_spans.resize(work.spans.size());
-    for (const Span& span : work.spans)
-        work.row_spans[work.cursor[static_cast<std::size_t>(span.row)]++] = {span.view, span.begin,
-                                                                             span.end};
+    const TileBounds bounds = tile_bounds(projection, tile);
+    const std::int32_t left = bounds.left, columns = bounds.columns();
+    pairs.lines = bounds.lines();
+    fill_rows(projection, scene_, patches_, tile, bounds, work);
 
     // Paint row after row; where the order is unsure, once more without those lines.
-    for (std::int32_t row = 0; row < rows; ++row) {
+    for (std::int32_t row = 0; row < bounds.rows(); ++row) {
         const RowSpan* spans = &work.row_spans[work.row_start[static_cast<std::size_t>(row)]];
         std::size_t count = work.row_start[static_cast<std::size_t>(row) + 1] -
                             work.row_start[static_cast<std::size_t>(row)];
@@ -159,15 +158,15 @@ void Projector::pairs(const Projection& projection, std::size_t tile, Workspace&
         TilePairs::Mark mark = pairs.mark();
         work.state.unsure.fill(0);
         work.state.clear();
-        if (!paint_row(work.views.data(), spans, count, left, top + row, columns, false, work.state,
-                       pairs))
+        if (!paint_row(work.views.data(), spans, count, left, bounds.top + row, columns, false,
+                       work.state, pairs))
             continue;
         pairs.back_to(mark);
         work.state.clear();
-        paint_row(work.views.data(), spans, count, left, top + row, columns, true, work.state,
-                  pairs);
+        paint_row(work.views.data(), spans, count, left, bounds.top + row, columns, true,
+                  work.state, pairs);
         list_unsure(projection, scene_, patches_, centre_, radius_, work, spans, count, left,
-                    top + row, columns);
+                    bounds.top + row, columns);
         append_pairs(work.unsure, pairs);
         pairs.lines -= work.unsure.lines();
     }

@@ -57,14 +57,14 @@ void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSetting
     shot.escaped.assign(bands, 0);
     const double emitted = sum_of(direct.emitted), enough = settings.until * emitted;
     double left = sum_of(direct.unshot);
-    auto go_on = [&](double) {
+    auto go_on = [&] {
         double done = settings.shots
                           ? static_cast<double>(direct.shots) / static_cast<double>(settings.shots)
                           : enough / std::max(left, enough);
         return run.listener.go_on("shots", done, direct.rays);
     };
 
-    while (left > enough && (settings.shots == 0 || direct.shots < settings.shots) && go_on(0)) {
+    while (left > enough && (settings.shots == 0 || direct.shots < settings.shots) && go_on()) {
         // Choose the patch with most unshot power, and take the power from it.
         std::size_t patch = 0;
         double most = 0;

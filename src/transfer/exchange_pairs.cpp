@@ -30,7 +30,6 @@ void exchange_both(const PatchList& from, const PatchList& to, const std::int64_
                    std::int64_t* received) {
     constexpr std::size_t ahead = 16;
     const std::uint32_t *i = from.ids.data(), *j = to.ids.data();
-    // Beyond the last pair stand patches of other pairs or 0: places that exist.
     for (std::size_t k = 0; k < from.count; ++k) {
         const std::size_t a = static_cast<std::size_t>(i[k]) * count;
         const std::size_t b = static_cast<std::size_t>(j[k]) * count;
