@@ -90,15 +90,13 @@ struct TilePairs {
 /// The pairs of ordered lists; appended.
 void append_pairs(const IntersectionLists& lists, TilePairs& pairs);
 
-/// Lines of one bundle that are worked on together: a tile's side.
-inline constexpr std::int32_t tile_side = 64;
-
 /// A bundle's view of the scene: snapped corners and the surfaces of every tile.
 struct Projection {
     Bundle bundle;
-    double radius = 1;                   ///< of the scene, metres
-    std::int32_t left = 0, top = 0;      ///< first column and row
-    std::int32_t columns = 0, rows = 0;  ///< of the rectangle that holds the scene
+    double radius = 1;                               ///< of the scene, metres
+    std::int32_t left = 0, top = 0;                  ///< first column and row
+    std::int32_t columns = 0, rows = 0;              ///< of the rectangle that holds the scene
+    std::int32_t tile_columns = 64, tile_rows = 64;  ///< of a tile; powers of two
     std::int32_t tiles_x = 0, tiles_y = 0;
     struct Corner {
         std::int32_t x, y;  ///< fixed point, 1 / fixed_one of a spacing
@@ -114,6 +112,7 @@ struct Projection {
 };
 
 class PlaneSides;
+struct TileBounds;
 
 /// Finds all crossings of a bundle by rasterising the surfaces. Corners are snapped to a grid of
 /// 1/4096 spacing and rows are filled by exact integer arithmetic, half open on either side, so
@@ -145,6 +144,9 @@ public:
     double radius() const { return radius_; }
 
 private:
+    void list_unsure(const Projection& projection, const TileBounds& bounds,
+                     Workspace& workspace) const;
+
     const Scene& scene_;
     const Patches& patches_;
     glm::dvec3 centre_{0};

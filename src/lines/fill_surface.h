@@ -4,18 +4,23 @@
 
 #include "lines/edge_walk.h"
 #include "lines/rectangle.h"
+#include "lines/tile_bounds.h"
 #include "parallux/lines.h"
 
 namespace parallux {
 
+/// The most rows of lines that a tile has.
+inline constexpr std::int32_t most_tile_rows = 64;
+
 /// The runs of a surface's lines in a tile, row by row: in each row the edges' columns, sorted,
 /// bound the runs in pairs. That is right for any polygon, even one that snapping has folded.
+/// emit(row, first column, end column), in the bundle's rows and columns.
 template <class Emit>
-void fill_surface(const Projection& projection, const Surface& surface, std::int32_t left,
-                  std::int32_t right, std::int32_t top, std::int32_t bottom, Emit&& emit) {
+void fill_surface(const Projection& projection, const Surface& surface, const TileBounds& tile,
+                  Emit&& emit) {
     unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;
     Rectangle r = rectangle_of(projection, surface);
-    std::int32_t first = std::max(top, r.top), end = std::min(bottom, r.bottom);
+    std::int32_t first = std::max(tile.top, r.top), end = std::min(tile.bottom, r.bottom);
     if (first >= end)
         return;
     auto edge = [&](unsigned k) {
@@ -38,10 +43,62 @@ void fill_surface(const Projection& projection, const Surface& surface, std::int
                 column[place] = c;
             }
         for (unsigned k = 0; k + 1 < crossings; k += 2) {
-            std::int32_t begin = std::max(column[k], left), stop = std::min(column[k + 1], right);
+            std::int32_t begin = std::max(column[k], tile.left);
+            std::int32_t stop = std::min(column[k + 1], tile.right);
             if (begin < stop)
                 emit(row, begin, stop);
         }
+    }
+}
+
+/// 1 or -1: the snapped corners of a surface turn one way all round, as x turns to y or against it.
+/// 0: they do not, or are not worth the while.
+inline int turn_of(const Projection& projection, const Surface& surface) {
+    unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;
+    const Projection::Corner* p[4];
+    for (unsigned k = 0; k < corners; ++k)
+        p[k] = &projection.corners[surface.corner[k]];
+    bool left = false, right = false;
+    for (unsigned k = 0; k < corners; ++k) {
+        const Projection::Corner &a = *p[k], &b = *p[(k + 1) % corners], &c = *p[(k + 2) % corners];
+        std::int64_t cross = (std::int64_t(b.x) - a.x) * (std::int64_t(c.y) - b.y) -
+                             (std::int64_t(b.y) - a.y) * (std::int64_t(c.x) - b.x);
+        left = left || cross <= 0;
+        right = right || cross >= 0;
+    }
+    return left == right ? 0 : right ? 1 : -1;
+}
+
+/// The same runs as fill_surface(). Where corners turn one way, edges that run down bound the lines
+/// on one side and edges that run up on the other, so that no row has to be sorted.
+template <class Emit>
+void fill_convex(const Projection& projection, const Surface& surface, const TileBounds& tile,
+                 Emit&& emit) {
+    const int turn = turn_of(projection, surface);
+    if (turn == 0)
+        return fill_surface(projection, surface, tile, emit);
+    unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;
+    std::int32_t column[2][most_tile_rows];  // where the lines of each row begin and end
+    std::int32_t first = tile.bottom, end = tile.top;
+    for (unsigned k = 0; k < corners; ++k) {
+        const Projection::Corner& a = projection.corners[surface.corner[k]];
+        const Projection::Corner& b =
+            projection.corners[surface.corner[k + 1 == corners ? 0 : k + 1]];
+        EdgeWalk edge(a.x, a.y, b.x, b.y, tile.top);
+        std::int32_t* side = column[(b.y > a.y) == (turn > 0)];
+        const std::int32_t stop = std::min(edge.end_row(), tile.bottom);
+        if (edge.first_row() >= stop)
+            continue;
+        first = std::min(first, edge.first_row());
+        end = std::max(end, stop);
+        for (std::int32_t row = edge.first_row(); row < stop; ++row, edge.next_row())
+            side[row - tile.top] = edge.column();
+    }
+    for (std::int32_t row = first; row < end; ++row) {
+        std::int32_t begin = std::max(column[0][row - tile.top], tile.left);
+        std::int32_t stop = std::min(column[1][row - tile.top], tile.right);
+        if (begin < stop)
+            emit(row, begin, stop);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/fill_surface.h"
 #include "lines/plane_sides.h"
 #include "lines/rectangle.h"
 #include "parallux/error.h"
@@ -57,8 +58,12 @@ void Projector::project(const Bundle& bundle, Projection& projection) const {
     projection.top = first_line(top);
     projection.columns = std::max(0, first_line(right) - projection.left);
     projection.rows = std::max(0, first_line(bottom) - projection.top);
-    projection.tiles_x = (projection.columns + tile_side - 1) / tile_side;
-    projection.tiles_y = (projection.rows + tile_side - 1) / tile_side;
+    // Surfaces that are painted cover many lines: wide tiles cut them less.
+    projection.tile_columns = sides_ ? 128 : 64;
+    projection.tile_rows = most_tile_rows;
+    projection.tiles_x =
+        (projection.columns + projection.tile_columns - 1) / projection.tile_columns;
+    projection.tiles_y = (projection.rows + projection.tile_rows - 1) / projection.tile_rows;
 
     if (sides_)
         sides_->order(projection, scene_, projection.order);
@@ -71,10 +76,10 @@ void Projector::project(const Bundle& bundle, Projection& projection) const {
             Rectangle r = rectangle_of(projection, scene_.surfaces[s]);
             if (r.empty())
                 continue;
-            std::int32_t x0 = (r.left - projection.left) / tile_side;
-            std::int32_t x1 = (r.right - 1 - projection.left) / tile_side;
-            std::int32_t y0 = (r.top - projection.top) / tile_side;
-            std::int32_t y1 = (r.bottom - 1 - projection.top) / tile_side;
+            std::int32_t x0 = (r.left - projection.left) / projection.tile_columns;
+            std::int32_t x1 = (r.right - 1 - projection.left) / projection.tile_columns;
+            std::int32_t y0 = (r.top - projection.top) / projection.tile_rows;
+            std::int32_t y1 = (r.bottom - 1 - projection.top) / projection.tile_rows;
             for (std::int32_t ty = y0; ty <= y1; ++ty)
                 for (std::int32_t tx = x0; tx <= x1; ++tx)
                     visit(static_cast<std::size_t>(ty) * projection.tiles_x + tx, s);

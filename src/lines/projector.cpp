@@ -33,7 +33,7 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
         std::uint32_t s = projection.tile_surfaces[k];
         std::uint32_t view = static_cast<std::uint32_t>(workspace.views.size());
         bool any = false;
-        fill_surface(projection, scene_.surfaces[s], left, bounds.right, top, bounds.bottom,
+        fill_surface(projection, scene_.surfaces[s], bounds,
                      [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
                          any = true;
                          workspace.spans.push_back({view, row - top, begin - left, end - left});

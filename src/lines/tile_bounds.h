@@ -19,11 +19,13 @@ struct TileBounds {
 
 inline TileBounds tile_bounds(const Projection& projection, std::size_t tile) {
     TileBounds bounds;
-    bounds.left =
-        projection.left + static_cast<std::int32_t>(tile % projection.tiles_x) * tile_side;
-    bounds.top = projection.top + static_cast<std::int32_t>(tile / projection.tiles_x) * tile_side;
-    bounds.right = std::min(bounds.left + tile_side, projection.left + projection.columns);
-    bounds.bottom = std::min(bounds.top + tile_side, projection.top + projection.rows);
+    std::int32_t x = static_cast<std::int32_t>(tile) % projection.tiles_x;
+    std::int32_t y = static_cast<std::int32_t>(tile) / projection.tiles_x;
+    bounds.left = projection.left + x * projection.tile_columns;
+    bounds.top = projection.top + y * projection.tile_rows;
+    bounds.right =
+        std::min(bounds.left + projection.tile_columns, projection.left + projection.columns);
+    bounds.bottom = std::min(bounds.top + projection.tile_rows, projection.top + projection.rows);
     return bounds;
 }
 

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <bit>
 
 #include "lines/depth_order.h"
 #include "lines/fill_surface.h"
@@ -73,103 +73,80 @@ namespace {
 // Whether so few surfaces meet the tile that each covers many of its lines.
 bool paintable(const Projection& projection, std::size_t tile) {
     return !projection.order.empty() &&
-           projection.tile_start[tile + 1] - projection.tile_start[tile] <= 96;
+           projection.tile_start[tile + 1] - projection.tile_start[tile] <= BlockLists::most_views;
 }
 
-// Fills the surfaces of a tile, in their order, with runs of lines, and deals the runs to their
-// rows.
-void fill_rows(const Projection& projection, const Scene& scene, const Patches& patches,
-               std::size_t tile, const TileBounds& bounds, Projector::Workspace& work) {
+// Fills the surfaces of a tile, in their order, with runs of lines, and deals the runs to blocks.
+void fill_blocks(const Projection& projection, const Scene& scene, const Patches& patches,
+                 std::size_t tile, const TileBounds& bounds, Projector::Workspace& work) {
+    const std::uint32_t begin = projection.tile_start[tile], end = projection.tile_start[tile + 1];
     work.views.clear();
-    work.spans.clear();
     work.slack.resize(scene.surfaces.size());
-    work.row_start.assign(static_cast<std::size_t>(bounds.rows()) + 1, 0);
-    for (std::uint32_t k = projection.tile_start[tile]; k < projection.tile_start[tile + 1]; ++k) {
+    work.blocks.reset(bounds, end - begin);
+    for (std::uint32_t k = begin; k < end; ++k) {
         std::uint32_t s = projection.tile_surfaces[k];
-        std::uint32_t view = static_cast<std::uint32_t>(work.views.size());
-        std::size_t before = work.spans.size();
-        fill_surface(projection, scene.surfaces[s], bounds.left, bounds.right, bounds.top,
-                     bounds.bottom, [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
-                         work.spans.push_back(
-                             {view, row - bounds.top, begin - bounds.left, end - bounds.left});
-                         ++work.row_start[static_cast<std::size_t>(row - bounds.top) + 1];
-                     });
-        if (work.spans.size() > before) {
+        std::uint16_t view = static_cast<std::uint16_t>(work.views.size());
+        std::uint64_t before = work.blocks.hits();
+        fill_convex(projection, scene.surfaces[s], bounds,
+                    [&](std::int32_t row, std::int32_t first, std::int32_t stop) {
+                        work.blocks.add(view, row - bounds.top, first - bounds.left,
+                                        stop - bounds.left);
+                    });
+        if (work.blocks.hits() > before) {
             work.views.push_back(view_of(projection, scene, patches, s));
             work.slack[s] = work.views.back().moved;
         }
-    }
-    for (std::size_t row = 1; row < work.row_start.size(); ++row)
-        work.row_start[row] += work.row_start[row - 1];
-    work.cursor.assign(work.row_start.begin(), work.row_start.end() - 1);
-    work.row_spans.resize(work.spans.size());
-    for (const Span& span : work.spans)
-        work.row_spans[work.cursor[static_cast<std::size_t>(span.row)]++] = {span.view, span.begin,
-                                                                             span.end};
-}
-
-// The lists of the unsure lines of a row, as lists() would have them.
-void list_unsure(const Projection& projection, const Scene& scene, const Patches& patches,
-                 const glm::dvec3& centre, double radius, Projector::Workspace& work,
-                 const RowSpan* spans, std::size_t count, std::int32_t left, std::int32_t row,
-                 std::int32_t columns) {
-    IntersectionLists& lists = work.unsure;
-    lists.start.assign(1, 0);
-    lists.hits.clear();
-    float tie = near_tie(projection.bundle.spacing, radius);
-    for (std::int32_t column = 0; column < columns; ++column) {
-        if (work.state.unsure[static_cast<std::size_t>(column)] == 0)
-            continue;
-        std::size_t begin = lists.hits.size();
-        for (std::size_t k = 0; k < count; ++k)
-            if (spans[k].begin <= column && column < spans[k].end)
-                lists.hits.push_back(hit_at(work.views[spans[k].view], left + column, row));
-        Hit *first = lists.hits.data() + begin, *end = lists.hits.data() + lists.hits.size();
-        if (sort_hits(first, end, tie, work.slack))
-            order_near_ties(projection, scene, patches, centre, radius, left + column, row,
-                            work.slack, first, end);
-        lists.start.push_back(static_cast<std::uint32_t>(lists.hits.size()));
     }
 }
 
 }  // namespace
 
+// The lists of the lines that the painter left, as lists() would have them.
+void Projector::list_unsure(const Projection& projection, const TileBounds& bounds,
+                            Workspace& work) const {
+    IntersectionLists& lists = work.lists;
+    lists.start.assign(1, 0);
+    lists.hits.clear();
+    float tie = near_tie(projection.bundle.spacing, radius_);
+    const std::size_t blocks = static_cast<std::size_t>(work.blocks.blocks());
+    for (const UnsureLines& unsure : work.unsure)
+        for (std::uint32_t left = unsure.lines; left != 0; left &= left - 1) {
+            const int line = std::countr_zero(left);
+            const std::int32_t row = bounds.top + static_cast<std::int32_t>(unsure.block / blocks);
+            const std::int32_t column =
+                bounds.left + static_cast<std::int32_t>(unsure.block % blocks) * block_lines + line;
+            std::size_t begin = lists.hits.size();
+            for (const BlockSpan* span = work.blocks.begin(unsure.block);
+                 span != work.blocks.end(unsure.block); ++span)
+                if (span->lines >> line & 1)
+                    lists.hits.push_back(hit_at(work.views[span->view], column, row));
+            Hit *first = lists.hits.data() + begin, *end = lists.hits.data() + lists.hits.size();
+            if (sort_hits(first, end, tie, work.slack))
+                order_near_ties(projection, scene_, patches_, centre_, radius_, column, row,
+                                work.slack, first, end);
+            lists.start.push_back(static_cast<std::uint32_t>(lists.hits.size()));
+        }
+}
+
 void Projector::pairs(const Projection& projection, std::size_t tile, Workspace& work,
                       TilePairs& pairs) const {
     pairs.clear();
     if (!paintable(projection, tile)) {
-        lists(projection, tile, work, work.unsure);
-        append_pairs(work.unsure, pairs);
+        lists(projection, tile, work, work.lists);
+        append_pairs(work.lists, pairs);
         return;
     }
     const TileBounds bounds = tile_bounds(projection, tile);
-    const std::int32_t left = bounds.left, columns = bounds.columns();
-    pairs.lines = bounds.lines();
-    fill_rows(projection, scene_, patches_, tile, bounds, work);
-
-    // Paint row after row; where the order is unsure, once more without those lines.
-    for (std::int32_t row = 0; row < bounds.rows(); ++row) {
-        const RowSpan* spans = &work.row_spans[work.row_start[static_cast<std::size_t>(row)]];
-        std::size_t count = work.row_start[static_cast<std::size_t>(row) + 1] -
-                            work.row_start[static_cast<std::size_t>(row)];
-        if (count == 0)
-            continue;
-        pairs.reserve(count * tile_side);
-        TilePairs::Mark mark = pairs.mark();
-        work.state.unsure.fill(0);
-        work.state.clear();
-        if (!paint_row(work.views.data(), spans, count, left, bounds.top + row, columns, false,
-                       work.state, pairs))
-            continue;
-        pairs.back_to(mark);
-        work.state.clear();
-        paint_row(work.views.data(), spans, count, left, bounds.top + row, columns, true,
-                  work.state, pairs);
-        list_unsure(projection, scene_, patches_, centre_, radius_, work, spans, count, left,
-                    bounds.top + row, columns);
-        append_pairs(work.unsure, pairs);
-        pairs.lines -= work.unsure.lines();
+    fill_blocks(projection, scene_, patches_, tile, bounds, work);
+    pairs.reserve(work.blocks.hits());
+    work.unsure.clear();
+    paint(work.views.data(), work.blocks, bounds, pairs, work.unsure);
+    if (!work.unsure.empty()) {
+        list_unsure(projection, bounds, work);
+        append_pairs(work.lists, pairs);
     }
+    pairs.lines = bounds.lines();
+    pairs.hits = work.blocks.hits();
 }
 
 }  // namespace parallux

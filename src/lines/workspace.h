@@ -19,10 +19,9 @@ struct Projector::Workspace {
     std::vector<Span> spans;
     std::vector<std::uint32_t> cursor;
     std::vector<float> slack;  ///< one a surface; only those of the present tile are up to date
-    std::vector<RowSpan> row_spans;        ///< of one row after the other
-    std::vector<std::uint32_t> row_start;  ///< rows + 1 offsets into them
-    RowState state;
-    IntersectionLists unsure;  ///< lines whose order the painter could not tell
+    BlockLists blocks;
+    std::vector<UnsureLines> unsure;  ///< lines whose order the painter could not tell
+    IntersectionLists lists;
 };
 
 }  // namespace parallux

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "lines/painter.h"
 #include "parallux/lines.h"
 #include "support/hand_made.h"
 

@@ -165,9 +165,11 @@ TEST_CASE("projector and tracer find the same hits on the same lines") {
         for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
             projector.lists(projection, tile, *workspace, lists);
             std::int32_t left =
-                projection.left + std::int32_t(tile % projection.tiles_x) * tile_side;
-            std::int32_t top = projection.top + std::int32_t(tile / projection.tiles_x) * tile_side;
-            std::int32_t columns = std::min(tile_side, projection.left + projection.columns - left);
+                projection.left + std::int32_t(tile % projection.tiles_x) * projection.tile_columns;
+            std::int32_t top =
+                projection.top + std::int32_t(tile / projection.tiles_x) * projection.tile_rows;
+            std::int32_t columns =
+                std::min(projection.tile_columns, projection.left + projection.columns - left);
             for (std::size_t line = 0; line < lists.lines(); ++line) {
                 double x = left + double(line % columns) - bundle.offset_x;
                 double y = top + double(line / columns) - bundle.offset_y;
