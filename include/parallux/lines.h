@@ -112,7 +112,6 @@ struct Projection {
 };
 
 class PlaneSides;
-struct TileBounds;
 
 /// Finds all crossings of a bundle by rasterising the surfaces. Corners are snapped to a grid of
 /// 1/4096 spacing and rows are filled by exact integer arithmetic, half open on either side, so
@@ -129,7 +128,7 @@ public:
 
     /// Scratch of one thread.
     struct Workspace;
-    static std::shared_ptr<Workspace> make_workspace();
+    std::shared_ptr<Workspace> make_workspace() const;
 
     /// The lists of one tile, line = (row in tile) · (columns in tile) + column.
     void lists(const Projection& projection, std::size_t tile, Workspace& workspace,
@@ -144,8 +143,13 @@ public:
     double radius() const { return radius_; }
 
 private:
-    void list_unsure(const Projection& projection, const TileBounds& bounds,
-                     Workspace& workspace) const;
+    void paint_pairs(const Projection& projection, std::size_t tile, Workspace& workspace,
+                     TilePairs& pairs) const;
+    void layer_pairs(const Projection& projection, std::size_t tile, Workspace& workspace,
+                     TilePairs& pairs) const;
+    // Orders the list that begins there in the workspace, and ends it.
+    void order_list(const Projection& projection, std::int32_t column, std::int32_t row,
+                    std::size_t begin, Workspace& workspace) const;
 
     const Scene& scene_;
     const Patches& patches_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -23,14 +24,15 @@ std::int64_t cross(Lattice a, Lattice b, Lattice c) {
 // double in the depth. A parallelogram is taken as two triangles, since its snapped corners need
 // not be quite in one plane.
 double exact_depth(const Projection& projection, const Scene& scene, const glm::dvec3& centre,
-                   double radius, const Surface& surface, Lattice line) {
+                   std::uint32_t s, Lattice line) {
+    const Surface& surface = scene.surfaces[s];
     auto at = [&](unsigned k) {
         const Projection::Corner& corner = projection.corners[surface.corner[k]];
         return Lattice{corner.x, corner.y};
     };
     auto depth = [&](unsigned k) {
         return glm::dot(scene.positions[surface.corner[k]] - centre, projection.bundle.direction) /
-               radius;
+               projection.radius;
     };
     unsigned b = 1, c = 2;
     if (surface.shape() == Shape::parallelogram) {
@@ -58,41 +60,87 @@ bool convex(const Scene& scene, const Surface& a, const Surface& b) {
     return height < 0;
 }
 
-bool parallel(const Scene& scene, const Surface& a, const Surface& b) {
-    return std::fabs(glm::dot(surface_normal(scene, a), surface_normal(scene, b))) > 0.9999;
-}
-
 }  // namespace
 
-void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
-                     const glm::dvec3& centre, double radius, std::int32_t column, std::int32_t row,
-                     const std::vector<float>& slack, Hit* begin, Hit* end) {
-    float tie = near_tie(projection.bundle.spacing, radius);
-    Lattice line{column * fixed_one, row * fixed_one};
-    auto from_behind = [&](const Hit& hit) {
-        const SurfaceGrid& grid = patches.grids[hit.surface];
-        return hit.away != none && hit.away - grid.front < grid.nu * grid.nv;
-    };
-    auto before = [&](const Hit& a, const Hit& b) {
-        const Surface& surface_a = scene.surfaces[a.surface];
-        const Surface& surface_b = scene.surfaces[b.surface];
-        bool touching = touch(surface_a, surface_b);
-        double difference = exact_depth(projection, scene, centre, radius, surface_a, line) -
-                            exact_depth(projection, scene, centre, radius, surface_b, line);
+SurfaceRelations::Relation SurfaceRelations::of(std::uint32_t a, std::uint32_t b) {
+    if (a > b)
+        std::swap(a, b);
+    Known& known = known_[(a * 0x9e3779b1u ^ b * 0x85ebca77u) >> 20];
+    if (known.a != a || known.b != b) {
+        const Surface &first = scene_.surfaces[a], &second = scene_.surfaces[b];
+        bool along = std::fabs(glm::dot(surface_normal(scene_, first),
+                                        surface_normal(scene_, second))) > 0.9999;
+        known = {a, b, touch(first, second) ? touching : along ? parallel : apart};
+    }
+    return known.relation;
+}
+
+namespace {
+
+// The order of two hits of a line that rounding may have turned.
+class TieOrder {
+public:
+    TieOrder(const Projection& projection, const Scene& scene, const Patches& patches,
+             const glm::dvec3& centre, Lattice line, const std::vector<float>& slack,
+             SurfaceRelations& relations)
+        : projection_(projection),
+          scene_(scene),
+          patches_(patches),
+          centre_(centre),
+          line_(line),
+          slack_(slack),
+          relations_(relations) {}
+
+    bool before(const Hit& a, const Hit& b) const {
+        SurfaceRelations::Relation relation = relations_.of(a.surface, b.surface);
         // Surfaces of one plane differ by no more than their corners' snapping: at slopes to 16, or
         // what their own slopes make of it where the direction grazes them. Planes that cross are
         // in one place only on a line.
         double same = 1e-14;
-        if (!touching && parallel(scene, surface_a, surface_b))
-            same = std::max(same_place(projection), slack[a.surface] + slack[b.surface]);
+        if (relation == SurfaceRelations::parallel)
+            same = std::max(same_place(projection_), slack_[a.surface] + slack_[b.surface]);
+        // Depths as floats decide where neither their rounding nor the fold of a snapped
+        // parallelogram can.
+        double difference = static_cast<double>(a.depth) - static_cast<double>(b.depth);
+        double rounding = 2e-6 + slack_[a.surface] + slack_[b.surface];
+        if (std::fabs(std::fabs(difference) - same) <= rounding)
+            difference = exact_depth(projection_, scene_, centre_, a.surface, line_) -
+                         exact_depth(projection_, scene_, centre_, b.surface, line_);
         if (std::fabs(difference) > same)
             return difference < 0;
         // In one place: the air lies between a floor and what stands on it, so that the one met
         // from behind comes first; but a line along the edge of a solid enters it before it leaves.
         if (from_behind(a) != from_behind(b))
-            return from_behind(a) != (touching && convex(scene, surface_a, surface_b));
+            return from_behind(a) !=
+                   (relation == SurfaceRelations::touching &&
+                    convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
         return a.surface < b.surface;
-    };
+    }
+
+private:
+    bool from_behind(const Hit& hit) const {
+        const SurfaceGrid& grid = patches_.grids[hit.surface];
+        return hit.away != none && hit.away - grid.front < grid.nu * grid.nv;
+    }
+
+    const Projection& projection_;
+    const Scene& scene_;
+    const Patches& patches_;
+    const glm::dvec3& centre_;
+    Lattice line_;
+    const std::vector<float>& slack_;
+    SurfaceRelations& relations_;
+};
+
+}  // namespace
+
+void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
+                     const glm::dvec3& centre, std::int32_t column, std::int32_t row,
+                     const std::vector<float>& slack, SurfaceRelations& relations, Hit* begin,
+                     Hit* end) {
+    const float tie = near_tie(projection.bundle.spacing, projection.radius);
+    const TieOrder order(projection, scene, patches, centre, {column * fixed_one, row * fixed_one},
+                         slack, relations);
     for (Hit* k = begin + 1; k < end; ++k) {
         Hit hit = *k;
         Hit* place = k;
@@ -100,7 +148,7 @@ void order_near_ties(const Projection& projection, const Scene& scene, const Pat
             return hit.depth - other.depth <
                    std::max(tie, slack[hit.surface] + slack[other.surface]);
         };
-        for (; place > begin && near(place[-1]) && before(hit, place[-1]); --place)
+        for (; place > begin && near(place[-1]) && order.before(hit, place[-1]); --place)
             *place = place[-1];
         *place = hit;
     }

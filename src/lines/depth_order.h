@@ -1,19 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
 #include "lines/edge_walk.h"
 #include "parallux/lines.h"
 
 namespace parallux {
-
-/// Puts right what rounding may have turned: hits of one line that lie closer together than the
-/// snapping could move them are ordered again. Faces that share a corner by the exact depth of
-/// their snapped corners, in which two faces meet along their common edge; others, which then lie
-/// in one place, so that the one met from behind comes first (a solid that stands on a floor: the
-/// gap is between them). `begin` … `end` are sorted by depth, then surface; `slack[surface]` is how
-/// far snapping may have moved the depths of each.
-void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
-                     const glm::dvec3& centre, double radius, std::int32_t column, std::int32_t row,
-                     const std::vector<float>& slack, Hit* begin, Hit* end);
 
 /// Whether two surfaces share a corner.
 inline bool touch(const Surface& a, const Surface& b) {
@@ -30,9 +27,38 @@ inline float same_place(const Projection& projection) {
     return static_cast<float>(16 * projection.bundle.spacing / projection.radius / fixed_one);
 }
 
-/// Depths closer than this, in radii, are near ties: an eighth of a line spacing.
+/// Depths closer than this, in radii, are near ties: what snapping makes of two slopes of 32.
+/// Steeper surfaces bring their own slack.
 inline float near_tie(double spacing, double radius) {
-    return static_cast<float>(0.125 * spacing / radius);
+    return static_cast<float>(2 * 32 * spacing / radius / fixed_one);
 }
+
+/// How two surfaces lie to each other. The same for all bundles, so that what was found is kept.
+class SurfaceRelations {
+public:
+    enum Relation : std::uint8_t { apart, parallel, touching };
+
+    explicit SurfaceRelations(const Scene& scene) : scene_(scene) {}
+    Relation of(std::uint32_t a, std::uint32_t b);
+
+private:
+    struct Known {
+        std::uint32_t a = none, b = none;
+        Relation relation = apart;
+    };
+    const Scene& scene_;
+    std::vector<Known> known_ = std::vector<Known>(1 << 12);
+};
+
+/// Puts right what rounding may have turned: hits of one line that lie closer together than the
+/// snapping could move them are ordered again. Faces that share a corner by the exact depth of
+/// their snapped corners, in which two faces meet along their common edge; others, which then lie
+/// in one place, so that the one met from behind comes first (a solid that stands on a floor: the
+/// gap is between them). `begin` … `end` are sorted by depth, then surface; `slack[surface]` is how
+/// far snapping may have moved the depths of each.
+void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
+                     const glm::dvec3& centre, std::int32_t column, std::int32_t row,
+                     const std::vector<float>& slack, SurfaceRelations& relations, Hit* begin,
+                     Hit* end);
 
 }  // namespace parallux

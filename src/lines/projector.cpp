@@ -13,8 +13,8 @@
 
 namespace parallux {
 
-std::shared_ptr<Projector::Workspace> Projector::make_workspace() {
-    return std::make_shared<Workspace>();
+std::shared_ptr<Projector::Workspace> Projector::make_workspace() const {
+    return std::make_shared<Workspace>(scene_);
 }
 
 void Projector::lists(const Projection& projection, std::size_t tile, Workspace& workspace,
@@ -65,10 +65,10 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
         Hit* begin = lists.hits.data() + lists.start[line];
         Hit* end = lists.hits.data() + lists.start[line + 1];
         if (sort_hits(begin, end, tie, workspace.slack))
-            order_near_ties(projection, scene_, patches_, centre_, radius_,
+            order_near_ties(projection, scene_, patches_, centre_,
                             left + static_cast<std::int32_t>(line) % columns,
-                            top + static_cast<std::int32_t>(line) / columns, workspace.slack, begin,
-                            end);
+                            top + static_cast<std::int32_t>(line) / columns, workspace.slack,
+                            workspace.relations, begin, end);
     }
 }
 

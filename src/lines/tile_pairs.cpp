@@ -2,6 +2,7 @@
 
 #include "lines/depth_order.h"
 #include "lines/fill_surface.h"
+#include "lines/hit_layers.h"
 #include "lines/painter.h"
 #include "lines/sort_hits.h"
 #include "lines/tile_bounds.h"
@@ -81,7 +82,6 @@ void fill_blocks(const Projection& projection, const Scene& scene, const Patches
                  std::size_t tile, const TileBounds& bounds, Projector::Workspace& work) {
     const std::uint32_t begin = projection.tile_start[tile], end = projection.tile_start[tile + 1];
     work.views.clear();
-    work.slack.resize(scene.surfaces.size());
     work.blocks.reset(bounds, end - begin);
     for (std::uint32_t k = begin; k < end; ++k) {
         std::uint32_t s = projection.tile_surfaces[k];
@@ -99,54 +99,98 @@ void fill_blocks(const Projection& projection, const Scene& scene, const Patches
     }
 }
 
+// The hit of a key. Where the surface is divided or steep, its view knows better.
+Hit layer_hit(const MeshTile& mesh, HitKey key, std::int32_t column, std::int32_t row,
+              Projector::Workspace& work) {
+    const std::uint32_t id = static_cast<std::uint32_t>(key), view = id >> 1;
+    const std::uint32_t surface = mesh.surfaces[view];
+    work.slack[surface] = work.layers.moved(view);
+    if (id % 2 == 1 || work.layers.moved(view) > 0.25f * mesh.tie)
+        return hit_at(work.view_cache.of(mesh, view), column, row);
+    const std::uint64_t sides = work.layers.sides()[view];
+    const double depth = static_cast<double>(key >> 32) / key_depth_one - key_depth_zero;
+    return {static_cast<float>(depth), surface, static_cast<std::uint32_t>(sides),
+            static_cast<std::uint32_t>(sides >> 32)};
+}
+
 }  // namespace
 
-// The lists of the lines that the painter left, as lists() would have them.
-void Projector::list_unsure(const Projection& projection, const TileBounds& bounds,
-                            Workspace& work) const {
-    IntersectionLists& lists = work.lists;
-    lists.start.assign(1, 0);
-    lists.hits.clear();
-    float tie = near_tie(projection.bundle.spacing, radius_);
+void Projector::order_list(const Projection& projection, std::int32_t column, std::int32_t row,
+                           std::size_t begin, Workspace& work) const {
+    Hit *first = work.lists.hits.data() + begin,
+        *end = work.lists.hits.data() + work.lists.hits.size();
+    if (sort_hits(first, end, near_tie(projection.bundle.spacing, radius_), work.slack))
+        order_near_ties(projection, scene_, patches_, centre_, column, row, work.slack,
+                        work.relations, first, end);
+    work.lists.start.push_back(static_cast<std::uint32_t>(work.lists.hits.size()));
+}
+
+void Projector::paint_pairs(const Projection& projection, std::size_t tile, Workspace& work,
+                            TilePairs& pairs) const {
+    const TileBounds bounds = tile_bounds(projection, tile);
+    fill_blocks(projection, scene_, patches_, tile, bounds, work);
+    pairs.reserve(work.blocks.hits());
+    work.unsure_blocks.clear();
+    paint(work.views.data(), work.blocks, bounds, pairs, work.unsure_blocks);
+
+    // The lines that the painter left, as lists() would have them.
     const std::size_t blocks = static_cast<std::size_t>(work.blocks.blocks());
-    for (const UnsureLines& unsure : work.unsure)
+    for (const UnsureLines& unsure : work.unsure_blocks)
         for (std::uint32_t left = unsure.lines; left != 0; left &= left - 1) {
             const int line = std::countr_zero(left);
             const std::int32_t row = bounds.top + static_cast<std::int32_t>(unsure.block / blocks);
             const std::int32_t column =
                 bounds.left + static_cast<std::int32_t>(unsure.block % blocks) * block_lines + line;
-            std::size_t begin = lists.hits.size();
+            std::size_t begin = work.lists.hits.size();
             for (const BlockSpan* span = work.blocks.begin(unsure.block);
                  span != work.blocks.end(unsure.block); ++span)
                 if (span->lines >> line & 1)
-                    lists.hits.push_back(hit_at(work.views[span->view], column, row));
-            Hit *first = lists.hits.data() + begin, *end = lists.hits.data() + lists.hits.size();
-            if (sort_hits(first, end, tie, work.slack))
-                order_near_ties(projection, scene_, patches_, centre_, radius_, column, row,
-                                work.slack, first, end);
-            lists.start.push_back(static_cast<std::uint32_t>(lists.hits.size()));
+                    work.lists.hits.push_back(hit_at(work.views[span->view], column, row));
+            order_list(projection, column, row, begin, work);
         }
+    pairs.hits = work.blocks.hits() - work.lists.hits.size();
+}
+
+void Projector::layer_pairs(const Projection& projection, std::size_t tile, Workspace& work,
+                            TilePairs& pairs) const {
+    const std::uint32_t begin = projection.tile_start[tile], end = projection.tile_start[tile + 1];
+    const MeshTile mesh{projection,
+                        scene_,
+                        patches_,
+                        tile_bounds(projection, tile),
+                        projection.tile_surfaces.data() + begin,
+                        end - begin,
+                        near_tie(projection.bundle.spacing, radius_)};
+    fill_layers(mesh, work.layers);
+    pairs.reserve(work.layers.hits());
+    work.unsure_lines.clear();
+    pair_layers(mesh, work.layers, work.view_cache, pairs, work.unsure_lines);
+
+    // The lines whose order the depths left open, as lists() would have them.
+    const UnsureLists& unsure = work.unsure_lines;
+    for (std::size_t n = 0, key = 0; n < unsure.lines.size(); ++n) {
+        const std::int32_t line = unsure.lines[n];
+        const std::int32_t row = mesh.bounds.top + line / HitLayers::side;
+        const std::int32_t column = mesh.bounds.left + line % HitLayers::side;
+        std::size_t first = work.lists.hits.size();
+        for (; key < unsure.end[n]; ++key)
+            work.lists.hits.push_back(layer_hit(mesh, unsure.keys[key], column, row, work));
+        order_list(projection, column, row, first, work);
+    }
 }
 
 void Projector::pairs(const Projection& projection, std::size_t tile, Workspace& work,
                       TilePairs& pairs) const {
     pairs.clear();
-    if (!paintable(projection, tile)) {
-        lists(projection, tile, work, work.lists);
-        append_pairs(work.lists, pairs);
-        return;
-    }
-    const TileBounds bounds = tile_bounds(projection, tile);
-    fill_blocks(projection, scene_, patches_, tile, bounds, work);
-    pairs.reserve(work.blocks.hits());
-    work.unsure.clear();
-    paint(work.views.data(), work.blocks, bounds, pairs, work.unsure);
-    if (!work.unsure.empty()) {
-        list_unsure(projection, bounds, work);
-        append_pairs(work.lists, pairs);
-    }
-    pairs.lines = bounds.lines();
-    pairs.hits = work.blocks.hits();
+    work.lists.start.assign(1, 0);
+    work.lists.hits.clear();
+    work.slack.resize(scene_.surfaces.size());
+    if (paintable(projection, tile))
+        paint_pairs(projection, tile, work, pairs);
+    else
+        layer_pairs(projection, tile, work, pairs);
+    append_pairs(work.lists, pairs);
+    pairs.lines = tile_bounds(projection, tile).lines();
 }
 
 }  // namespace parallux

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "lines/depth_order.h"
+#include "lines/hit_layers.h"
 #include "lines/painter.h"
 #include "lines/surface_view.h"
 #include "parallux/lines.h"
@@ -15,13 +17,19 @@ struct Span {
 };
 
 struct Projector::Workspace {
+    explicit Workspace(const Scene& scene) : relations(scene) {}
+
+    SurfaceRelations relations;
     std::vector<SurfaceView> views;
     std::vector<Span> spans;
     std::vector<std::uint32_t> cursor;
     std::vector<float> slack;  ///< one a surface; only those of the present tile are up to date
     BlockLists blocks;
-    std::vector<UnsureLines> unsure;  ///< lines whose order the painter could not tell
-    IntersectionLists lists;
+    HitLayers layers;
+    ViewCache view_cache;
+    std::vector<UnsureLines> unsure_blocks;  ///< lines whose order the painter could not tell
+    UnsureLists unsure_lines;                ///< or the layers' depths
+    IntersectionLists lists;                 ///< of those lines
 };
 
 }  // namespace parallux

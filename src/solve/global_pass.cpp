@@ -12,7 +12,7 @@ namespace {
 
 // A worker's buffers, kept from tile to tile; no two workers write to one cache line.
 struct alignas(64) Buffers {
-    std::shared_ptr<Projector::Workspace> workspace = Projector::make_workspace();
+    std::shared_ptr<Projector::Workspace> workspace;
     IntersectionLists lists;
     TilePairs pairs;
     std::vector<glm::dvec3> directions;
@@ -31,7 +31,10 @@ public:
           banks_(run.banks),
           buffers_(run.plan.threads),
           lit_(run.scene.sky.kind != Sky::Kind::dark),
-          projector_(run.scene, run.patches) {}
+          projector_(run.scene, run.patches) {
+        for (Buffers& buffers : buffers_)
+            buffers.workspace = projector_.make_workspace();
+    }
 
     // Projects the bundles side by side, then follows the tiles of all of them.
     void bundles(std::uint64_t first, std::uint32_t count) {

@@ -25,7 +25,7 @@ std::vector<std::uint64_t> sorted(const PatchList& a, const PatchList* b = nullp
 void compare(const Scene& scene, double lines_across, std::size_t& pairs_seen) {
     Patches patches = make_patches(scene);
     Projector projector(scene, patches);
-    auto workspace = Projector::make_workspace();
+    auto workspace = projector.make_workspace();
     Projection projection;
     IntersectionLists lists;
     for (std::uint64_t b = 0; b < 60; ++b) {

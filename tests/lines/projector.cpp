@@ -57,7 +57,7 @@ struct Audit {
 // Follows all lines of some bundles: lists must be even, and sides must alternate between meeting
 // a back and meeting a front, since all surfaces are closed and one-sided.
 void audit(const Projector& projector, const Bundle& bundle, Audit& sums) {
-    static auto workspace = Projector::make_workspace();
+    auto workspace = projector.make_workspace();
     Projection projection;
     IntersectionLists lists;
     projector.project(bundle, projection);
@@ -146,7 +146,7 @@ TEST_CASE("projector and tracer find the same hits on the same lines") {
     Patches patches = make_patches(scene);
     Projector projector(scene, patches);
     RayScene rays(scene, 1);
-    auto workspace = Projector::make_workspace();
+    auto workspace = projector.make_workspace();
     Projection projection;
     IntersectionLists lists;
     std::vector<SurfaceHit> hits;

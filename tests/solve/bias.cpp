@@ -35,7 +35,7 @@ std::vector<double> first_line_takes_everything(const Scene& scene, const Patche
                                                 std::uint64_t seed, std::uint64_t bundles,
                                                 double spacing) {
     Projector projector(scene, patches);
-    auto workspace = Projector::make_workspace();
+    auto workspace = projector.make_workspace();
     Projection projection;
     IntersectionLists lists;
     std::vector<double> unshot(patches.count(), 0), received(patches.count(), 0);

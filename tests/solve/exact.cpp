@@ -50,7 +50,7 @@ void cube_factors(std::uint64_t bundles, double spacing, double skew, Sample& op
     Scene scene = room(grey(0.5), 1);
     Patches patches = make_patches(scene);
     Projector projector(scene, patches);
-    auto workspace = Projector::make_workspace();
+    auto workspace = projector.make_workspace();
     Projection projection;
     IntersectionLists lists;
     for (int group = 0; group < 50; ++group) {

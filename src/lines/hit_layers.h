@@ -1,0 +1,153 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <vector>
+
+#include "lines/surface_view.h"
+#include "lines/tile_bounds.h"
+#include "parallux/aligned.h"
+#include "parallux/lines.h"
+
+namespace parallux {
+
+// A hit as one number that sorts as hits do: its depth above, the surface's place in the tile's
+// list below, and in the lowest bit whether the surface has more than one patch.
+using HitKey = std::uint64_t;
+
+/// Depths in keys: fixed point, so that differences are as exact anywhere in the scene.
+inline constexpr double key_depth_one = 0x1p29;  ///< of a radius
+inline constexpr double key_depth_zero = 1.25;   ///< added to a depth, so that none is negative
+
+/// The depth of a surface at a line, in keys' units, from a column and row nearby.
+struct DepthPlane {
+    float at = 0, per_column = 0, per_row = 0;
+};
+
+/// The hits of a tile's lines in layers: the n-th surface found on a line lies in layer n, in the
+/// order of the surfaces, until pair_layers() sorts them. No memory is taken for a line.
+class HitLayers {
+public:
+    static constexpr std::int32_t side = 64;  ///< lines of a row; line = row · side + column
+    static constexpr std::int32_t lines = side * side;
+    static constexpr std::uint32_t layers = 16;
+
+    HitLayers() : keys_(layers * lines), count_(lines + 64), unsure_(lines + 64) {}
+
+    /// No hits; `views`: surfaces that may be met.
+    void reset(std::size_t views) {
+        std::memset(count_.data(), 0, count_.size());
+        std::memset(unsure_.data(), 0, unsure_.size());
+        beyond_.clear();
+        beyond_sorted_ = false;
+        sides_.resize(views);
+        moved_.resize(views);
+    }
+
+    void add(std::int32_t line, HitKey key) {
+        std::uint32_t n = count_[line];
+        if (n < layers)
+            keys_[n * lines + line] = key;
+        else
+            beyond_.push_back({static_cast<std::uint32_t>(line), key});
+        count_[line] = static_cast<std::uint8_t>(std::min(n + 1, 255u));
+    }
+
+    /// The first patches of a view's sides, as the line that comes along and the one that looks
+    /// back see them; how far snapping may have moved its depths, in radii.
+    void set_view(std::size_t view, std::uint32_t toward, std::uint32_t away, float moved) {
+        sides_[view] = std::uint64_t(away) << 32 | toward;
+        moved_[view] = moved;
+    }
+
+    std::uint64_t* keys(std::uint32_t layer) { return &keys_[layer * lines]; }
+    std::uint8_t* counts() { return count_.data(); }
+    std::uint8_t* unsure() { return unsure_.data(); }  ///< ≠ 0: depths do not tell the order
+    const std::uint64_t* sides() const { return sides_.data(); }
+    float moved(std::size_t view) const { return moved_[view]; }
+
+    /// Hits of all lines; of lines with more than 255, those.
+    std::size_t hits() const {
+        return std::accumulate(count_.begin(), count_.end(), std::size_t(0));
+    }
+    /// Appends all keys of one line, in no order.
+    void append_keys(std::int32_t line, std::vector<HitKey>& keys);
+
+private:
+    struct Beyond {
+        std::uint32_t line;
+        HitKey key;
+        bool operator<(const Beyond& other) const { return line < other.line; }
+    };
+    template <class T>
+    using Array = std::vector<T, CacheAligned<T>>;
+    Array<std::uint64_t> keys_;
+    Array<std::uint8_t> count_, unsure_;
+    std::vector<std::uint64_t> sides_;
+    std::vector<float> moved_;
+    bool beyond_sorted_ = false;
+    std::vector<Beyond> beyond_;  // hits of lines that meet more surfaces than there are layers
+};
+
+/// What a tile of a mesh is made from.
+struct MeshTile {
+    const Projection& projection;
+    const Scene& scene;
+    const Patches& patches;
+    TileBounds bounds;
+    const std::uint32_t* surfaces;  ///< those that may meet the tile, in order
+    std::size_t count;
+    float tie;  ///< depths no further apart do not tell the order; in radii
+};
+
+/// The views of those surfaces of a tile that are asked for; the others are never made.
+class ViewCache {
+public:
+    void reset(std::size_t count) {
+        place_.assign(count, none);
+        views_.clear();
+    }
+    const SurfaceView& of(const MeshTile& tile, std::size_t k) {
+        if (place_[k] == none) {
+            place_[k] = static_cast<std::uint32_t>(views_.size());
+            views_.push_back(view_of(tile.projection, tile.scene, tile.patches, tile.surfaces[k]));
+        }
+        return views_[place_[k]];
+    }
+
+private:
+    std::vector<std::uint32_t> place_;
+    std::vector<SurfaceView> views_;
+};
+
+/// Lines whose order the depths leave open, with their keys in order.
+struct UnsureLists {
+    std::vector<std::int32_t> lines;
+    std::vector<std::size_t> end;  ///< of each line's keys
+    std::vector<HitKey> keys;
+
+    void clear() {
+        lines.clear();
+        end.clear();
+        keys.clear();
+    }
+    /// Ends the list of a line.
+    void push(std::int32_t line) {
+        lines.push_back(line);
+        end.push_back(keys.size());
+    }
+};
+
+/// Finds all hits of the tile's lines: small triangles by testing blocks of lines against their
+/// edges in integers, others row by row. The coverage is that of fill_surface().
+void fill_layers(const MeshTile& tile, HitLayers& layers);
+
+/// Sorts the hits of every line and appends its pairs. Lines whose order the depths leave open, or
+/// that have more hits than layers, are handed back instead.
+void pair_layers(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePairs& pairs,
+                 UnsureLists& unsure);
+
+}  // namespace parallux

@@ -1,0 +1,325 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lines/pair_layers.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstring>
+
+#include "lines/hit_layers.h"
+#include "lines/hits-inl.h"
+
+#ifndef PARALLUX_LINES_PAIR_LAYERS_ONCE
+#define PARALLUX_LINES_PAIR_LAYERS_ONCE
+namespace parallux {
+
+// Hands back a line that no vector sorts.
+inline void push_unsorted(HitLayers& layers, std::int32_t line, UnsureLists& unsure) {
+    const std::size_t begin = unsure.keys.size();
+    layers.append_keys(line, unsure.keys);
+    std::sort(unsure.keys.begin() + static_cast<std::ptrdiff_t>(begin), unsure.keys.end());
+    unsure.push(line);
+}
+
+}  // namespace parallux
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace parallux {
+namespace HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+
+// Without vectors every line goes the plain way.
+void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache&, TilePairs&,
+              UnsureLists& unsure) {
+    for (std::int32_t row = 0; row < tile.bounds.rows(); ++row)
+        for (std::int32_t column = 0; column < tile.bounds.columns(); ++column)
+            if (std::int32_t line = row * HitLayers::side + column; layers.counts()[line] > 0)
+                push_unsorted(layers, line, unsure);
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Lines are followed as many at a time as a vector has 32-bit lanes; their keys fill two vectors.
+using Ints = hn::CappedTag<std::int32_t, 16>;
+using Keys = hn::RepartitionToWide<Ints>;  // no key has the highest bit
+using Floats = hn::RebindToFloat<Ints>;
+using VI = hn::Vec<Ints>;
+using VK = hn::Vec<Keys>;
+using Lines = hn::Mask<Ints>;
+
+HWY_INLINE std::uint32_t bits_of(Lines lines) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Ints(), lines, bytes);
+    std::uint32_t bits;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+}
+
+// The sorted hits of neighbouring lines of a row, and how many each has.
+struct LineHits {
+    VK low[HitLayers::layers], high[HitLayers::layers];  // keys of the first and second half
+    VI count;
+    std::uint32_t most;
+};
+
+// K. E. Batcher, Sorting networks and their applications, 1968: odd-even merge sort.
+template <std::uint32_t count>
+HWY_INLINE void sort_network(VK* k) {
+    if constexpr (count > 2) {
+        sort_network<count / 2>(k);
+        sort_network<count / 2>(k + count / 2);
+    }
+    for (std::uint32_t step = count / 2; step > 0; step /= 2)
+        for (std::uint32_t a = step == count / 2 ? 0 : step; a + step < count; a += 2 * step)
+            for (std::uint32_t b = a; b < a + step; ++b) {
+                const VK low = hn::Min(k[b], k[b + step]);
+                k[b + step] = hn::Max(k[b], k[b + step]);
+                k[b] = low;
+            }
+}
+
+template <std::uint32_t count>
+HWY_INLINE void load_half(HitLayers& layers, std::int32_t line, VK own, VK* keys) {
+    const Keys d;
+    const VK far = hn::Set(d, INT64_MAX);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const VK key = hn::Load(d, reinterpret_cast<const std::int64_t*>(layers.keys(n)) + line);
+        keys[n] = hn::IfThenElse(hn::Gt(own, hn::Set(d, n)), key, far);
+    }
+    if constexpr (count > 1)
+        sort_network<count>(keys);
+}
+
+template <std::uint32_t count>
+HWY_INLINE void load_sorted(HitLayers& layers, std::int32_t line, LineHits& hits) {
+    const Keys d;
+    load_half<count>(layers, line, hn::PromoteTo(d, hn::LowerHalf(hits.count)), hits.low);
+    load_half<count>(layers, line + static_cast<std::int32_t>(hn::Lanes(d)),
+                     hn::PromoteTo(d, hn::UpperHalf(hn::Half<Ints>(), hits.count)), hits.high);
+}
+
+HWY_INLINE void load_lines(HitLayers& layers, std::int32_t line, LineHits& hits) {
+    if (hits.most <= 2)
+        load_sorted<2>(layers, line, hits);
+    else if (hits.most <= 4)
+        load_sorted<4>(layers, line, hits);
+    else if (hits.most <= 8)
+        load_sorted<8>(layers, line, hits);
+    else
+        load_sorted<16>(layers, line, hits);
+}
+
+// Upper halves of two vectors of keys.
+HWY_INLINE VI upper_halves(VK low, VK high) {
+    const Ints i;
+    return hn::ConcatOdd(i, hn::BitCast(i, high), hn::BitCast(i, low));
+}
+HWY_INLINE VI lower_halves(VK low, VK high) {
+    const Ints i;
+    return hn::ConcatEven(i, hn::BitCast(i, high), hn::BitCast(i, low));
+}
+
+// The pairs of neighbouring lines.
+struct LinePairs {
+    const MeshTile& tile;
+    const std::int64_t* sides;
+    ViewCache& views;
+    TilePairs& pairs;
+
+    HWY_INLINE void follow(const LineHits& hits, std::int32_t column, std::int32_t row) {
+        const Ints i;
+        const VI nobody = hn::Set(i, -1), one = hn::Set(i, 1);
+        VI previous = nobody;
+        for (std::uint32_t n = 0; n < hits.most; ++n) {
+            const Lines met = hn::Gt(hits.count, hn::Set(i, static_cast<std::int32_t>(n)));
+            const VI id = hn::IfThenElseZero(met, lower_halves(hits.low[n], hits.high[n]));
+            VI toward, away;
+            sides_of(id, toward, away);
+            const Lines divided = hn::Ne(hn::And(id, one), hn::Zero(i));
+            if (!hn::AllFalse(i, divided))
+                add_cells(id, divided, column, row, toward, away);
+            const Lines to_patch = hn::And(met, hn::Ne(toward, nobody));
+            if (n == 0)
+                put(pairs.first, toward, to_patch);
+            else
+                pair(previous, toward, met, to_patch);
+            // What leaves the last surface leaves the scene.
+            put(pairs.last, away,
+                hn::And(hn::Eq(hits.count, hn::Set(i, static_cast<std::int32_t>(n + 1))),
+                        hn::Ne(away, nobody)));
+            previous = away;
+        }
+    }
+
+private:
+    HWY_INLINE void sides_of(VI id, VI& toward, VI& away) const {
+        const Keys d;
+        const hn::Half<Ints> half;
+        const VI view = hn::ShiftRight<1>(id);
+        const VK low = hn::GatherIndex(d, sides, hn::PromoteTo(d, hn::LowerHalf(view)));
+        const VK high = hn::GatherIndex(d, sides, hn::PromoteTo(d, hn::UpperHalf(half, view)));
+        toward = lower_halves(low, high);
+        away = upper_halves(low, high);
+    }
+
+    HWY_INLINE void pair(VI previous, VI toward, Lines met, Lines to_patch) {
+        const Ints i;
+        const Lines from_patch = hn::And(met, hn::Ne(previous, hn::Set(i, -1)));
+        const Lines both = hn::And(from_patch, to_patch);
+        append(pairs.from.ids.data() + pairs.from.count, previous, both);
+        pairs.to.count += append(pairs.to.ids.data() + pairs.to.count, toward, both);
+        pairs.from.count = pairs.to.count;
+        put(pairs.into_backs, previous, hn::AndNot(to_patch, from_patch));
+        put(pairs.from_backs, toward, hn::AndNot(from_patch, to_patch));
+    }
+
+    static HWY_INLINE void put(PatchList& list, VI patches, Lines which) {
+        if (!hn::AllFalse(Ints(), which))
+            list.count += append(list.ids.data() + list.count, patches, which);
+    }
+
+    // The cells of hits on surfaces of more than one patch, one surface after the other: most often
+    // neighbouring lines meet the same.
+    HWY_INLINE void add_cells(VI id, Lines divided, std::int32_t column, std::int32_t row,
+                              VI& toward, VI& away) {
+        const Ints i;
+        const Floats f;
+        const VI nobody = hn::Set(i, -1);
+        alignas(64) std::int32_t ids[16];
+        hn::Store(id, i, ids);
+        VI cell = hn::Zero(i);
+        for (std::uint32_t bits = bits_of(divided); bits != 0;) {
+            const std::int32_t own = ids[std::countr_zero(bits)];
+            const SurfaceView& view =
+                views.of(tile, static_cast<std::size_t>(static_cast<std::uint32_t>(own) >> 1));
+            const auto x =
+                hn::ConvertTo(f, hn::Add(hn::Iota(i, 0), hn::Set(i, column - view.column)));
+            const Lines same = hn::Eq(id, hn::Set(i, own));
+            cell = hn::IfThenElse(
+                same, hits_of(f, view, x, static_cast<float>(row - view.row)).cell, cell);
+            bits &= ~bits_of(same);
+        }
+        toward = hn::Add(toward, hn::IfThenElseZero(hn::Ne(toward, nobody), cell));
+        away = hn::Add(away, hn::IfThenElseZero(hn::Ne(away, nobody), cell));
+    }
+};
+
+// Lines whose successive hits are nearer to each other than the tie.
+HWY_INLINE Lines near_ties(const LineHits& hits, VI tie) {
+    const Ints i;
+    Lines near = hn::FirstN(i, 0);
+    VI before = upper_halves(hits.low[0], hits.high[0]);
+    for (std::uint32_t n = 1; n < hits.most; ++n) {
+        const VI depth = upper_halves(hits.low[n], hits.high[n]);
+        near = hn::Or(near, hn::And(hn::Gt(hits.count, hn::Set(i, static_cast<std::int32_t>(n))),
+                                    hn::Lt(hn::Sub(depth, before), tie)));
+        before = depth;
+    }
+    return near;
+}
+
+// Hands back lines with the keys that they were sorted to.
+HWY_NOINLINE void push_sorted(const LineHits& hits, std::uint32_t bits, std::int32_t line,
+                              UnsureLists& unsure) {
+    const Ints i;
+    const Keys d;
+    const std::size_t lanes = hn::Lanes(i);
+    alignas(64) std::int64_t keys[HitLayers::layers][16];
+    alignas(64) std::int32_t count[16];
+    hn::Store(hits.count, i, count);
+    for (std::uint32_t n = 0; n < hits.most; ++n) {
+        hn::Store(hits.low[n], d, keys[n]);
+        hn::Store(hits.high[n], d, keys[n] + lanes / 2);
+    }
+    for (; bits != 0; bits &= bits - 1) {
+        const int lane = std::countr_zero(bits);
+        for (std::int32_t n = 0; n < count[lane]; ++n)
+            unsure.keys.push_back(static_cast<HitKey>(keys[n][lane]));
+        unsure.push(line + lane);
+    }
+}
+
+// Counts of hits of neighbouring lines; those that go the plain way are handed back with none.
+HWY_INLINE VI counts_of(HitLayers& layers, std::int32_t line, std::uint32_t& left) {
+    const Ints i;
+    const hn::Rebind<std::uint8_t, Ints> d8;
+    const VI count = hn::PromoteTo(i, hn::LoadU(d8, layers.counts() + line));
+    const VI marks = hn::PromoteTo(i, hn::LoadU(d8, layers.unsure() + line));
+    const VI zero = hn::Zero(i);
+    const Lines unsure =
+        hn::And(hn::Gt(count, zero),
+                hn::Or(hn::Gt(marks, zero), hn::Gt(count, hn::Set(i, HitLayers::layers))));
+    left = bits_of(unsure);
+    return hn::IfThenElse(unsure, zero, count);
+}
+
+HWY_INLINE std::uint32_t most_of(VI count) {
+    std::uint32_t most = 0;
+    while (!hn::AllFalse(Ints(), hn::Gt(count, hn::Set(Ints(), static_cast<std::int32_t>(most)))))
+        ++most;
+    return most;
+}
+
+void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePairs& pairs,
+              UnsureLists& unsure) {
+    const Ints i;
+    const std::int32_t lanes = static_cast<std::int32_t>(hn::Lanes(i));
+    const VI zero = hn::Zero(i), one = hn::Set(i, 1);
+    const VI tie =
+        hn::Set(i, static_cast<std::int32_t>(static_cast<double>(tile.tie) * key_depth_one) + 1);
+    LinePairs line_pairs{tile, reinterpret_cast<const std::int64_t*>(layers.sides()), views, pairs};
+    VI hits_sum = zero, odd_sum = zero, nonempty_sum = zero;
+    for (std::int32_t y = 0; y < tile.bounds.rows(); ++y)
+        for (std::int32_t x = 0; x < tile.bounds.columns(); x += lanes) {
+            const std::int32_t line = y * HitLayers::side + x;
+            std::uint32_t left = 0;
+            LineHits hits;
+            hits.count = counts_of(layers, line, left);
+            hits.most = most_of(hits.count);
+            if (hits.most > 0) {
+                load_lines(layers, line, hits);
+                const Lines near = near_ties(hits, tie);
+                if (!hn::AllFalse(i, near)) {
+                    push_sorted(hits, bits_of(near), line, unsure);
+                    hits.count = hn::IfThenElse(near, zero, hits.count);
+                }
+                line_pairs.follow(hits, tile.bounds.left + x, tile.bounds.top + y);
+                hits_sum = hn::Add(hits_sum, hits.count);
+                odd_sum = hn::Add(odd_sum, hn::And(hits.count, one));
+                nonempty_sum =
+                    hn::Add(nonempty_sum, hn::IfThenElseZero(hn::Gt(hits.count, zero), one));
+            }
+            for (; left != 0; left &= left - 1)
+                push_unsorted(layers, line + std::countr_zero(left), unsure);
+        }
+    auto total = [&](VI sum) {
+        return static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(i, sum)));
+    };
+    pairs.hits += total(hits_sum);
+    pairs.odd += total(odd_sum);
+    pairs.nonempty += total(nonempty_sum);
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace parallux
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace parallux {
+
+HWY_EXPORT(pair_all);
+
+void pair_layers(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePairs& pairs,
+                 UnsureLists& unsure) {
+    views.reset(tile.count);
+    HWY_DYNAMIC_DISPATCH(pair_all)(tile, layers, views, pairs, unsure);
+}
+
+}  // namespace parallux
+#endif
