@@ -107,6 +107,16 @@ struct Projection {
     std::vector<std::uint32_t> tile_surfaces;
     std::vector<std::uint32_t> order;  ///< all surfaces by depth, where planes can tell; else empty
 
+    /// Scratch: some of the surfaces, with the tiles they may meet.
+    struct TileEntry {
+        std::uint32_t tile, surface;
+    };
+    struct Piece {
+        std::vector<TileEntry> entries;
+        std::vector<std::uint32_t> place;  ///< one a tile
+    };
+    std::vector<Piece> pieces;
+
     std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * tiles_y; }
     std::uint64_t lines() const { return static_cast<std::uint64_t>(columns) * rows; }
 };
@@ -122,9 +132,10 @@ public:
     /// Keeps references to both: they must outlive the projector.
     Projector(const Scene& scene, const Patches& patches);
 
-    /// Projects corners and sorts surfaces into tiles. Linear in corners, surfaces and the tiles
-    /// they cover. Throws Fault::usage when the spacing gives more than 2¹⁸ lines a side.
-    void project(const Bundle& bundle, Projection& projection) const;
+    /// Projects corners and sorts surfaces into tiles, in parallel where they are many. Linear in
+    /// corners, surfaces and the tiles they cover. Throws Fault::usage when the spacing gives more
+    /// than 2¹⁸ lines a side.
+    void project(const Bundle& bundle, Projection& projection, unsigned threads = 1) const;
 
     /// Scratch of one thread.
     struct Workspace;
@@ -143,6 +154,7 @@ public:
     double radius() const { return radius_; }
 
 private:
+    void sort_into_tiles(Projection& projection, unsigned threads) const;
     void paint_pairs(const Projection& projection, std::size_t tile, Workspace& workspace,
                      TilePairs& pairs) const;
     void layer_pairs(const Projection& projection, std::size_t tile, Workspace& workspace,

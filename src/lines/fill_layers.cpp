@@ -122,15 +122,47 @@ HWY_INLINE void fill_small(const SmallSurface& t, const DepthPlane& plane, std::
     }
 }
 
-// The hits of a surface on neighbouring lines of a row.
+// The hits of a surface on neighbouring lines of a row. Most often they have met equally many
+// surfaces so far, and their keys go to one layer as they are.
 void fill_run(const DepthPlane& plane, std::int32_t x, std::int32_t y, std::int32_t line,
               std::int32_t count, std::uint32_t id, bool steep, HitLayers& layers) {
+    const Ints i;
+    const Floats d;
+    const hn::Rebind<std::uint8_t, Ints> d8;
+    const std::int32_t lanes = static_cast<std::int32_t>(hn::Lanes(i));
     const float down = plane.at + plane.per_row * static_cast<float>(y);
-    for (std::int32_t k = 0; k < count; ++k) {
-        const float depth = down + plane.per_column * static_cast<float>(x + k);
-        layers.add(line + k, HitKey(std::uint32_t(std::int32_t(depth))) << 32 | id);
-        if (steep)
-            layers.unsure()[line + k] = 1;
+    if (steep)
+        std::memset(layers.unsure() + line, 1, static_cast<std::size_t>(count));
+    alignas(64) std::int32_t depth[16];
+    for (std::int32_t k = 0; k < count; k += lanes) {
+        const auto column = hn::ConvertTo(d, hn::Add(hn::Iota(i, 0), hn::Set(i, x + k)));
+        const VI depths = hn::ConvertTo(
+            i, hn::Add(hn::Set(d, down), hn::Mul(hn::Set(d, plane.per_column), column)));
+        const std::int32_t left = std::min(count - k, lanes), first = line + k;
+        std::uint8_t* own = layers.counts() + first;
+        const auto counts = hn::LoadU(d8, own);
+        const std::uint32_t layer = *own;
+        if (left == lanes && layer < HitLayers::layers &&
+            hn::AllTrue(d8, hn::Eq(counts, hn::Set(d8, static_cast<std::uint8_t>(layer))))) {
+#if HWY_TARGET != HWY_SCALAR
+            const hn::RepartitionToWide<hn::RebindToUnsigned<Ints>> d64;
+            const auto below = hn::Set(d64, id);
+            const auto bits = hn::BitCast(hn::RebindToUnsigned<Ints>(), depths);
+            const hn::Half<hn::RebindToUnsigned<Ints>> half;
+            std::uint64_t* keys = layers.keys(layer) + first;
+            hn::StoreU(
+                hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(d64, hn::LowerHalf(half, bits))), below),
+                d64, keys);
+            hn::StoreU(
+                hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(d64, hn::UpperHalf(half, bits))), below),
+                d64, keys + lanes / 2);
+            hn::StoreU(hn::Add(counts, hn::Set(d8, 1)), d8, own);
+            continue;
+#endif
+        }
+        hn::Store(depths, i, depth);
+        for (std::int32_t n = 0; n < left; ++n)
+            layers.add(first + n, HitKey(std::uint32_t(depth[n])) << 32 | id);
     }
 }
 
@@ -252,8 +284,21 @@ void fill_all(const MeshTile& tile, HitLayers& layers) {
     // below this move by less than the tie.
     const double steep = 0.45 * static_cast<double>(tile.tie) * key_depth_one * fixed_one;
     Filler filler{tile, layers, steep};
-    for (std::size_t view = 0; view < tile.count; ++view)
+    // Surfaces and corners of a tile lie all over a large scene: they are fetched ahead.
+    constexpr std::size_t surface_ahead = 16, corners_ahead = 8;
+    const Surface* surfaces = tile.scene.surfaces.data();
+    for (std::size_t view = 0; view < tile.count; ++view) {
+        if (view + surface_ahead < tile.count) {
+            __builtin_prefetch(&surfaces[tile.surfaces[view + surface_ahead]]);
+            __builtin_prefetch(&tile.patches.grids[tile.surfaces[view + surface_ahead]]);
+        }
+        if (view + corners_ahead < tile.count) {
+            const Surface& next = surfaces[tile.surfaces[view + corners_ahead]];
+            for (int k = 0; k < 3; ++k)
+                __builtin_prefetch(&tile.projection.corners[next.corner[k]]);
+        }
         filler.fill(view);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,12 +1,15 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "lines/fill_surface.h"
 #include "lines/plane_sides.h"
 #include "lines/rectangle.h"
+#include "parallel.h"
 #include "parallux/error.h"
 #include "parallux/lines.h"
 
@@ -32,67 +35,126 @@ Projector::Projector(const Scene& scene, const Patches& patches)
         sides_ = std::make_shared<PlaneSides>(scene);
 }
 
-void Projector::project(const Bundle& bundle, Projection& projection) const {
+namespace {
+
+constexpr std::size_t corners_a_piece = 1 << 14, surfaces_a_piece = 1 << 14;
+
+// The smallest and largest snapped coordinates, of some corners or all.
+struct Extent {
+    std::int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
+
+    void add(const Extent& other) {
+        left = std::min(left, other.left);
+        right = std::max(right, other.right);
+        top = std::min(top, other.top);
+        bottom = std::max(bottom, other.bottom);
+    }
+};
+
+// Snaps every corner to the fixed-point grid.
+Extent snap_corners(const Bundle& bundle, const Scene& scene, const glm::dvec3& centre,
+                    unsigned threads, Projection& projection) {
+    const std::size_t count = scene.positions.size();
+    projection.corners.resize(count);
+    const glm::dvec3 x = bundle.x * (1 / bundle.spacing), y = bundle.y * (1 / bundle.spacing);
+    const double radius = projection.radius;
+    std::vector<Extent> extents((count + corners_a_piece - 1) / corners_a_piece);
+    parallel_for(
+        threads, count, corners_a_piece, [&](std::size_t begin, std::size_t end, unsigned) {
+            Extent extent;
+            for (std::size_t p = begin; p < end; ++p) {
+                const glm::dvec3 from_centre = scene.positions[p] - centre;
+                Projection::Corner& corner = projection.corners[p];
+                corner.x = static_cast<std::int32_t>(
+                    std::lrint((glm::dot(from_centre, x) + bundle.offset_x) * fixed_one));
+                corner.y = static_cast<std::int32_t>(
+                    std::lrint((glm::dot(from_centre, y) + bundle.offset_y) * fixed_one));
+                corner.depth = static_cast<float>(glm::dot(from_centre, bundle.direction) / radius);
+                extent.add({corner.x, corner.x, corner.y, corner.y});
+            }
+            extents[begin / corners_a_piece] = extent;
+        });
+    Extent all;
+    for (const Extent& extent : extents)
+        all.add(extent);
+    return all;
+}
+
+// Which tiles some surfaces may meet: the tiles that their rectangles touch.
+void find_tiles(const Scene& scene, std::size_t begin, std::size_t end, Projection& projection,
+                Projection::Piece& piece) {
+    const int column_bits = std::countr_zero(static_cast<unsigned>(projection.tile_columns));
+    const int row_bits = std::countr_zero(static_cast<unsigned>(projection.tile_rows));
+    piece.entries.clear();
+    piece.place.assign(projection.tiles(), 0);
+    for (std::size_t k = begin; k < end; ++k) {
+        const std::uint32_t s =
+            projection.order.empty() ? static_cast<std::uint32_t>(k) : projection.order[k];
+        const Rectangle r = rectangle_of(projection, scene.surfaces[s]);
+        if (r.empty())
+            continue;
+        const std::int32_t x0 = (r.left - projection.left) >> column_bits;
+        const std::int32_t x1 = (r.right - 1 - projection.left) >> column_bits;
+        const std::int32_t y0 = (r.top - projection.top) >> row_bits;
+        const std::int32_t y1 = (r.bottom - 1 - projection.top) >> row_bits;
+        for (std::int32_t ty = y0; ty <= y1; ++ty)
+            for (std::int32_t tx = x0; tx <= x1; ++tx) {
+                const std::uint32_t tile = static_cast<std::uint32_t>(ty * projection.tiles_x + tx);
+                piece.entries.push_back({tile, s});
+                ++piece.place[tile];
+            }
+    }
+}
+
+}  // namespace
+
+void Projector::project(const Bundle& bundle, Projection& projection, unsigned threads) const {
     check_spacing(bundle.spacing, radius_);
     projection.bundle = bundle;
     projection.radius = radius_;
-
-    // Snap every corner to the fixed-point grid.
-    projection.corners.resize(scene_.positions.size());
-    glm::dvec3 x = bundle.x * (1 / bundle.spacing), y = bundle.y * (1 / bundle.spacing);
-    std::int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
-    for (std::size_t p = 0; p < scene_.positions.size(); ++p) {
-        glm::dvec3 from_centre = scene_.positions[p] - centre_;
-        Projection::Corner& corner = projection.corners[p];
-        corner.x = static_cast<std::int32_t>(
-            std::lrint((glm::dot(from_centre, x) + bundle.offset_x) * fixed_one));
-        corner.y = static_cast<std::int32_t>(
-            std::lrint((glm::dot(from_centre, y) + bundle.offset_y) * fixed_one));
-        corner.depth = static_cast<float>(glm::dot(from_centre, bundle.direction) / radius_);
-        left = std::min(left, corner.x);
-        right = std::max(right, corner.x);
-        top = std::min(top, corner.y);
-        bottom = std::max(bottom, corner.y);
-    }
-    projection.left = first_line(left);
-    projection.top = first_line(top);
-    projection.columns = std::max(0, first_line(right) - projection.left);
-    projection.rows = std::max(0, first_line(bottom) - projection.top);
+    const Extent extent = snap_corners(bundle, scene_, centre_, threads, projection);
+    projection.left = first_line(extent.left);
+    projection.top = first_line(extent.top);
+    projection.columns = std::max(0, first_line(extent.right) - projection.left);
+    projection.rows = std::max(0, first_line(extent.bottom) - projection.top);
     // Surfaces that are painted cover many lines: wide tiles cut them less.
     projection.tile_columns = sides_ ? 128 : 64;
     projection.tile_rows = most_tile_rows;
     projection.tiles_x =
         (projection.columns + projection.tile_columns - 1) / projection.tile_columns;
     projection.tiles_y = (projection.rows + projection.tile_rows - 1) / projection.tile_rows;
-
     if (sides_)
         sides_->order(projection, scene_, projection.order);
+    sort_into_tiles(projection, threads);
+}
 
-    // Sort the surfaces into the tiles that their rectangles touch: count, then place.
-    projection.tile_start.assign(projection.tiles() + 1, 0);
-    auto each_tile = [&](auto&& visit) {
-        for (std::uint32_t k = 0; k < scene_.surfaces.size(); ++k) {
-            std::uint32_t s = projection.order.empty() ? k : projection.order[k];
-            Rectangle r = rectangle_of(projection, scene_.surfaces[s]);
-            if (r.empty())
-                continue;
-            std::int32_t x0 = (r.left - projection.left) / projection.tile_columns;
-            std::int32_t x1 = (r.right - 1 - projection.left) / projection.tile_columns;
-            std::int32_t y0 = (r.top - projection.top) / projection.tile_rows;
-            std::int32_t y1 = (r.bottom - 1 - projection.top) / projection.tile_rows;
-            for (std::int32_t ty = y0; ty <= y1; ++ty)
-                for (std::int32_t tx = x0; tx <= x1; ++tx)
-                    visit(static_cast<std::size_t>(ty) * projection.tiles_x + tx, s);
-        }
-    };
-    each_tile([&](std::size_t tile, std::uint32_t) { ++projection.tile_start[tile + 1]; });
-    for (std::size_t tile = 0; tile < projection.tiles(); ++tile)
-        projection.tile_start[tile + 1] += projection.tile_start[tile];
-    projection.tile_surfaces.resize(projection.tile_start.back());
-    std::vector<std::uint32_t> cursor(projection.tile_start.begin(),
-                                      projection.tile_start.end() - 1);
-    each_tile(
-        [&](std::size_t tile, std::uint32_t s) { projection.tile_surfaces[cursor[tile]++] = s; });
+// Counts what each piece of the surfaces has for every tile, gives every piece its place in every
+// tile, and puts it there: each tile then has its surfaces in their order, whatever the threads.
+void Projector::sort_into_tiles(Projection& projection, unsigned threads) const {
+    const std::size_t count = scene_.surfaces.size(), tiles = projection.tiles();
+    // Of many tiles, fewer and larger pieces, so that counters stay fewer than surfaces.
+    const std::size_t grain = std::max(surfaces_a_piece, tiles);
+    projection.pieces.resize((count + grain - 1) / grain);
+    parallel_for(threads, count, grain, [&](std::size_t begin, std::size_t end, unsigned) {
+        find_tiles(scene_, begin, end, projection, projection.pieces[begin / grain]);
+    });
+    projection.tile_start.resize(tiles + 1);
+    std::uint32_t placed = 0;
+    for (std::size_t tile = 0; tile < tiles; ++tile) {
+        projection.tile_start[tile] = placed;
+        for (Projection::Piece& piece : projection.pieces)
+            placed += std::exchange(piece.place[tile], placed);
+    }
+    projection.tile_start[tiles] = placed;
+    projection.tile_surfaces.resize(placed);
+    parallel_for(threads, projection.pieces.size(), 1,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     for (std::size_t k = begin; k < end; ++k) {
+                         Projection::Piece& piece = projection.pieces[k];
+                         for (const Projection::TileEntry& entry : piece.entries)
+                             projection.tile_surfaces[piece.place[entry.tile]++] = entry.surface;
+                     }
+                 });
 }
 
 }  // namespace parallux
