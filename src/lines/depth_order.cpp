@@ -24,8 +24,9 @@ std::int64_t cross(Lattice a, Lattice b, Lattice c) {
 // double in the depth. A parallelogram is taken as two triangles, since its snapped corners need
 // not be quite in one plane.
 double exact_depth(const Projection& projection, const Scene& scene, const glm::dvec3& centre,
-                   std::uint32_t s, Lattice line) {
+                   std::uint32_t s, std::int32_t column, std::int32_t row) {
     const Surface& surface = scene.surfaces[s];
+    const Lattice line{column * fixed_one, row * fixed_one};
     auto at = [&](unsigned k) {
         const Projection::Corner& corner = projection.corners[surface.corner[k]];
         return Lattice{corner.x, corner.y};
@@ -75,72 +76,43 @@ SurfaceRelations::Relation SurfaceRelations::of(std::uint32_t a, std::uint32_t b
     return known.relation;
 }
 
-namespace {
+bool TieOrder::before(const Hit& a, const Hit& b) const {
+    SurfaceRelations::Relation relation = relations_.of(a.surface, b.surface);
+    // Surfaces of one plane differ by no more than their corners' snapping: at slopes to 16, or
+    // what their own slopes make of it where the direction grazes them. Planes that cross are in
+    // one place only on a line.
+    const double moved = slack_[a.surface] + slack_[b.surface];
+    const double same = relation == SurfaceRelations::parallel
+                            ? std::max<double>(same_place(projection_), moved)
+                            : 1e-14;
+    // Depths as floats decide where neither their rounding nor the fold of a snapped parallelogram
+    // can.
+    double difference = static_cast<double>(a.depth) - static_cast<double>(b.depth);
+    if (std::fabs(std::fabs(difference) - same) <= 2e-6 + moved)
+        difference = exact_depth(projection_, scene_, centre_, a.surface, column_, row_) -
+                     exact_depth(projection_, scene_, centre_, b.surface, column_, row_);
+    if (std::fabs(difference) > same)
+        return difference < 0;
+    // In one place: the air lies between a floor and what stands on it, so that the one met from
+    // behind comes first; but a line along the edge of a solid enters it before it leaves.
+    if (from_behind(a) != from_behind(b))
+        return from_behind(a) !=
+               (relation == SurfaceRelations::touching &&
+                convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
+    return a.surface < b.surface;
+}
 
-// The order of two hits of a line that rounding may have turned.
-class TieOrder {
-public:
-    TieOrder(const Projection& projection, const Scene& scene, const Patches& patches,
-             const glm::dvec3& centre, Lattice line, const std::vector<float>& slack,
-             SurfaceRelations& relations)
-        : projection_(projection),
-          scene_(scene),
-          patches_(patches),
-          centre_(centre),
-          line_(line),
-          slack_(slack),
-          relations_(relations) {}
-
-    bool before(const Hit& a, const Hit& b) const {
-        SurfaceRelations::Relation relation = relations_.of(a.surface, b.surface);
-        // Surfaces of one plane differ by no more than their corners' snapping: at slopes to 16, or
-        // what their own slopes make of it where the direction grazes them. Planes that cross are
-        // in one place only on a line.
-        double same = 1e-14;
-        if (relation == SurfaceRelations::parallel)
-            same = std::max(same_place(projection_), slack_[a.surface] + slack_[b.surface]);
-        // Depths as floats decide where neither their rounding nor the fold of a snapped
-        // parallelogram can.
-        double difference = static_cast<double>(a.depth) - static_cast<double>(b.depth);
-        double rounding = 2e-6 + slack_[a.surface] + slack_[b.surface];
-        if (std::fabs(std::fabs(difference) - same) <= rounding)
-            difference = exact_depth(projection_, scene_, centre_, a.surface, line_) -
-                         exact_depth(projection_, scene_, centre_, b.surface, line_);
-        if (std::fabs(difference) > same)
-            return difference < 0;
-        // In one place: the air lies between a floor and what stands on it, so that the one met
-        // from behind comes first; but a line along the edge of a solid enters it before it leaves.
-        if (from_behind(a) != from_behind(b))
-            return from_behind(a) !=
-                   (relation == SurfaceRelations::touching &&
-                    convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
-        return a.surface < b.surface;
-    }
-
-private:
-    bool from_behind(const Hit& hit) const {
-        const SurfaceGrid& grid = patches_.grids[hit.surface];
-        return hit.away != none && hit.away - grid.front < grid.nu * grid.nv;
-    }
-
-    const Projection& projection_;
-    const Scene& scene_;
-    const Patches& patches_;
-    const glm::dvec3& centre_;
-    Lattice line_;
-    const std::vector<float>& slack_;
-    SurfaceRelations& relations_;
-};
-
-}  // namespace
+bool TieOrder::from_behind(const Hit& hit) const {
+    const SurfaceGrid& grid = patches_.grids[hit.surface];
+    return hit.away != none && hit.away - grid.front < grid.nu * grid.nv;
+}
 
 void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
                      const glm::dvec3& centre, std::int32_t column, std::int32_t row,
                      const std::vector<float>& slack, SurfaceRelations& relations, Hit* begin,
                      Hit* end) {
     const float tie = near_tie(projection.bundle.spacing, projection.radius);
-    const TieOrder order(projection, scene, patches, centre, {column * fixed_one, row * fixed_one},
-                         slack, relations);
+    const TieOrder order(projection, scene, patches, centre, column, row, slack, relations);
     for (Hit* k = begin + 1; k < end; ++k) {
         Hit hit = *k;
         Hit* place = k;

@@ -50,12 +50,41 @@ private:
     std::vector<Known> known_ = std::vector<Known>(1 << 12);
 };
 
-/// Puts right what rounding may have turned: hits of one line that lie closer together than the
-/// snapping could move them are ordered again. Faces that share a corner by the exact depth of
-/// their snapped corners, in which two faces meet along their common edge; others, which then lie
-/// in one place, so that the one met from behind comes first (a solid that stands on a floor: the
-/// gap is between them). `begin` … `end` are sorted by depth, then surface; `slack[surface]` is how
-/// far snapping may have moved the depths of each.
+/// The order of two hits of one line that rounding may have turned. Faces that share a corner by
+/// the exact depth of their snapped corners, in which two faces meet along their common edge;
+/// others, which then lie in one place, so that the one met from behind comes first (a solid that
+/// stands on a floor: the gap is between them).
+class TieOrder {
+public:
+    /// `slack[surface]` is how far snapping may have moved the depths of each.
+    TieOrder(const Projection& projection, const Scene& scene, const Patches& patches,
+             const glm::dvec3& centre, std::int32_t column, std::int32_t row,
+             const std::vector<float>& slack, SurfaceRelations& relations)
+        : projection_(projection),
+          scene_(scene),
+          patches_(patches),
+          centre_(centre),
+          column_(column),
+          row_(row),
+          slack_(slack),
+          relations_(relations) {}
+
+    bool before(const Hit& a, const Hit& b) const;
+
+private:
+    bool from_behind(const Hit& hit) const;
+
+    const Projection& projection_;
+    const Scene& scene_;
+    const Patches& patches_;
+    const glm::dvec3& centre_;
+    std::int32_t column_, row_;
+    const std::vector<float>& slack_;
+    SurfaceRelations& relations_;
+};
+
+/// Orders hits of one line again that lie closer together than the snapping could move them.
+/// `begin` … `end` are sorted by depth, then surface.
 void order_near_ties(const Projection& projection, const Scene& scene, const Patches& patches,
                      const glm::dvec3& centre, std::int32_t column, std::int32_t row,
                      const std::vector<float>& slack, SurfaceRelations& relations, Hit* begin,

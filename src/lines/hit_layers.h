@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "lines/depth_order.h"
 #include "lines/surface_view.h"
 #include "lines/tile_bounds.h"
 #include "parallux/aligned.h"
@@ -103,6 +104,11 @@ struct MeshTile {
     float tie;  ///< depths no further apart do not tell the order; in radii
 };
 
+/// The tie in keys' units.
+inline std::int32_t key_tie(const MeshTile& tile) {
+    return static_cast<std::int32_t>(static_cast<double>(tile.tie) * key_depth_one) + 1;
+}
+
 /// The views of those surfaces of a tile that are asked for; the others are never made.
 class ViewCache {
 public:
@@ -123,31 +129,33 @@ private:
     std::vector<SurfaceView> views_;
 };
 
-/// Lines whose order the depths leave open, with their keys in order.
-struct UnsureLists {
-    std::vector<std::int32_t> lines;
-    std::vector<std::size_t> end;  ///< of each line's keys
-    std::vector<HitKey> keys;
+/// Orders the keys of a line again where depths do not tell; see TieOrder.
+class KeyTies {
+public:
+    KeyTies(const MeshTile& tile, const HitLayers& layers, const glm::dvec3& centre,
+            std::vector<float>& slack, SurfaceRelations& relations)
+        : tile_(tile), layers_(layers), centre_(centre), slack_(slack), relations_(relations) {}
 
-    void clear() {
-        lines.clear();
-        end.clear();
-        keys.clear();
-    }
-    /// Ends the list of a line.
-    void push(std::int32_t line) {
-        lines.push_back(line);
-        end.push_back(keys.size());
-    }
+    /// keys[0], keys[stride] … of a line of the tile, sorted; none of a steep surface.
+    void order(HitKey* keys, std::size_t stride, std::uint32_t count, std::int32_t line) const;
+    /// What a key says of its hit; of a surface of many patches, the first.
+    Hit hit(HitKey key) const;
+
+private:
+    const MeshTile& tile_;
+    const HitLayers& layers_;
+    const glm::dvec3& centre_;
+    std::vector<float>& slack_;
+    SurfaceRelations& relations_;
 };
 
 /// Finds all hits of the tile's lines: small triangles by testing blocks of lines against their
 /// edges in integers, others row by row. The coverage is that of fill_surface().
 void fill_layers(const MeshTile& tile, HitLayers& layers);
 
-/// Sorts the hits of every line and appends its pairs. Lines whose order the depths leave open, or
-/// that have more hits than layers, are handed back instead.
-void pair_layers(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePairs& pairs,
-                 UnsureLists& unsure);
+/// Sorts the hits of every line and appends its pairs. Lines that meet a steep surface or have more
+/// hits than layers are handed back instead.
+void pair_layers(const MeshTile& tile, HitLayers& layers, ViewCache& views, const KeyTies& ties,
+                 TilePairs& pairs, std::vector<std::int32_t>& left);
 
 }  // namespace parallux

@@ -9,21 +9,6 @@
 #include "lines/hit_layers.h"
 #include "lines/hits-inl.h"
 
-#ifndef PARALLUX_LINES_PAIR_LAYERS_ONCE
-#define PARALLUX_LINES_PAIR_LAYERS_ONCE
-namespace parallux {
-
-// Hands back a line that no vector sorts.
-inline void push_unsorted(HitLayers& layers, std::int32_t line, UnsureLists& unsure) {
-    const std::size_t begin = unsure.keys.size();
-    layers.append_keys(line, unsure.keys);
-    std::sort(unsure.keys.begin() + static_cast<std::ptrdiff_t>(begin), unsure.keys.end());
-    unsure.push(line);
-}
-
-}  // namespace parallux
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace parallux {
 namespace HWY_NAMESPACE {
@@ -31,12 +16,12 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 
 // Without vectors every line goes the plain way.
-void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache&, TilePairs&,
-              UnsureLists& unsure) {
+void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache&, const KeyTies&, TilePairs&,
+              std::vector<std::int32_t>& left) {
     for (std::int32_t row = 0; row < tile.bounds.rows(); ++row)
         for (std::int32_t column = 0; column < tile.bounds.columns(); ++column)
             if (std::int32_t line = row * HitLayers::side + column; layers.counts()[line] > 0)
-                push_unsorted(layers, line, unsure);
+                left.push_back(line);
 }
 
 #else
@@ -222,24 +207,27 @@ HWY_INLINE Lines near_ties(const LineHits& hits, VI tie) {
     return near;
 }
 
-// Hands back lines with the keys that they were sorted to.
-HWY_NOINLINE void push_sorted(const LineHits& hits, std::uint32_t bits, std::int32_t line,
-                              UnsureLists& unsure) {
+// Orders again the hits of lines whose depths do not tell.
+HWY_NOINLINE void order_ties(const KeyTies& ties, std::uint32_t lines, std::int32_t line,
+                             LineHits& hits) {
     const Ints i;
     const Keys d;
     const std::size_t lanes = hn::Lanes(i);
-    alignas(64) std::int64_t keys[HitLayers::layers][16];
+    alignas(64) HitKey keys[HitLayers::layers][16];
     alignas(64) std::int32_t count[16];
     hn::Store(hits.count, i, count);
+    auto place = [&](std::uint32_t n) { return reinterpret_cast<std::int64_t*>(keys[n]); };
     for (std::uint32_t n = 0; n < hits.most; ++n) {
-        hn::Store(hits.low[n], d, keys[n]);
-        hn::Store(hits.high[n], d, keys[n] + lanes / 2);
+        hn::Store(hits.low[n], d, place(n));
+        hn::Store(hits.high[n], d, place(n) + lanes / 2);
     }
-    for (; bits != 0; bits &= bits - 1) {
-        const int lane = std::countr_zero(bits);
-        for (std::int32_t n = 0; n < count[lane]; ++n)
-            unsure.keys.push_back(static_cast<HitKey>(keys[n][lane]));
-        unsure.push(line + lane);
+    for (; lines != 0; lines &= lines - 1) {
+        const int lane = std::countr_zero(lines);
+        ties.order(&keys[0][lane], 16, static_cast<std::uint32_t>(count[lane]), line + lane);
+    }
+    for (std::uint32_t n = 0; n < hits.most; ++n) {
+        hits.low[n] = hn::Load(d, place(n));
+        hits.high[n] = hn::Load(d, place(n) + lanes / 2);
     }
 }
 
@@ -264,8 +252,8 @@ HWY_INLINE std::uint32_t most_of(VI count) {
     return most;
 }
 
-void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePairs& pairs,
-              UnsureLists& unsure) {
+void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache& views, const KeyTies& ties,
+              TilePairs& pairs, std::vector<std::int32_t>& left) {
     const Ints i;
     const std::int32_t lanes = static_cast<std::int32_t>(hn::Lanes(i));
     const VI zero = hn::Zero(i), one = hn::Set(i, 1);
@@ -276,25 +264,22 @@ void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePai
     for (std::int32_t y = 0; y < tile.bounds.rows(); ++y)
         for (std::int32_t x = 0; x < tile.bounds.columns(); x += lanes) {
             const std::int32_t line = y * HitLayers::side + x;
-            std::uint32_t left = 0;
             LineHits hits;
-            hits.count = counts_of(layers, line, left);
+            std::uint32_t skipped = 0;
+            hits.count = counts_of(layers, line, skipped);
+            for (; skipped != 0; skipped &= skipped - 1)
+                left.push_back(line + std::countr_zero(skipped));
             hits.most = most_of(hits.count);
-            if (hits.most > 0) {
-                load_lines(layers, line, hits);
-                const Lines near = near_ties(hits, tie);
-                if (!hn::AllFalse(i, near)) {
-                    push_sorted(hits, bits_of(near), line, unsure);
-                    hits.count = hn::IfThenElse(near, zero, hits.count);
-                }
-                line_pairs.follow(hits, tile.bounds.left + x, tile.bounds.top + y);
-                hits_sum = hn::Add(hits_sum, hits.count);
-                odd_sum = hn::Add(odd_sum, hn::And(hits.count, one));
-                nonempty_sum =
-                    hn::Add(nonempty_sum, hn::IfThenElseZero(hn::Gt(hits.count, zero), one));
-            }
-            for (; left != 0; left &= left - 1)
-                push_unsorted(layers, line + std::countr_zero(left), unsure);
+            if (hits.most == 0)
+                continue;
+            load_lines(layers, line, hits);
+            const Lines near = near_ties(hits, tie);
+            if (!hn::AllFalse(i, near))
+                order_ties(ties, bits_of(near), line, hits);
+            line_pairs.follow(hits, tile.bounds.left + x, tile.bounds.top + y);
+            hits_sum = hn::Add(hits_sum, hits.count);
+            odd_sum = hn::Add(odd_sum, hn::And(hits.count, one));
+            nonempty_sum = hn::Add(nonempty_sum, hn::IfThenElseZero(hn::Gt(hits.count, zero), one));
         }
     auto total = [&](VI sum) {
         return static_cast<std::uint64_t>(hn::GetLane(hn::SumOfLanes(i, sum)));
@@ -315,10 +300,40 @@ namespace parallux {
 
 HWY_EXPORT(pair_all);
 
-void pair_layers(const MeshTile& tile, HitLayers& layers, ViewCache& views, TilePairs& pairs,
-                 UnsureLists& unsure) {
-    views.reset(tile.count);
-    HWY_DYNAMIC_DISPATCH(pair_all)(tile, layers, views, pairs, unsure);
+void pair_layers(const MeshTile& tile, HitLayers& layers, ViewCache& views, const KeyTies& ties,
+                 TilePairs& pairs, std::vector<std::int32_t>& left) {
+    HWY_DYNAMIC_DISPATCH(pair_all)(tile, layers, views, ties, pairs, left);
+}
+
+Hit KeyTies::hit(HitKey key) const {
+    const std::size_t view = static_cast<std::uint32_t>(key) >> 1;
+    const std::uint32_t surface = tile_.surfaces[view];
+    slack_[surface] = layers_.moved(view);
+    const double depth = static_cast<double>(key >> 32) / key_depth_one - key_depth_zero;
+    const std::uint64_t sides = layers_.sides()[view];
+    return {static_cast<float>(depth), surface, static_cast<std::uint32_t>(sides),
+            static_cast<std::uint32_t>(sides >> 32)};
+}
+
+void KeyTies::order(HitKey* keys, std::size_t stride, std::uint32_t count,
+                    std::int32_t line) const {
+    const TieOrder order(tile_.projection, tile_.scene, tile_.patches, centre_,
+                         tile_.bounds.left + line % HitLayers::side,
+                         tile_.bounds.top + line / HitLayers::side, slack_, relations_);
+    const std::int64_t tie = key_tie(tile_);
+    for (std::uint32_t k = 1; k < count; ++k) {
+        const HitKey key = keys[k * stride];
+        std::uint32_t place = k;
+        for (; place > 0; --place) {
+            const HitKey other = keys[(place - 1) * stride];
+            if (static_cast<std::int64_t>(key >> 32) - static_cast<std::int64_t>(other >> 32) >=
+                    tie ||
+                !order.before(hit(key), hit(other)))
+                break;
+            keys[place * stride] = other;
+        }
+        keys[place * stride] = key;
+    }
 }
 
 }  // namespace parallux

@@ -99,20 +99,6 @@ void fill_blocks(const Projection& projection, const Scene& scene, const Patches
     }
 }
 
-// The hit of a key. Where the surface is divided or steep, its view knows better.
-Hit layer_hit(const MeshTile& mesh, HitKey key, std::int32_t column, std::int32_t row,
-              Projector::Workspace& work) {
-    const std::uint32_t id = static_cast<std::uint32_t>(key), view = id >> 1;
-    const std::uint32_t surface = mesh.surfaces[view];
-    work.slack[surface] = work.layers.moved(view);
-    if (id % 2 == 1 || work.layers.moved(view) > 0.25f * mesh.tie)
-        return hit_at(work.view_cache.of(mesh, view), column, row);
-    const std::uint64_t sides = work.layers.sides()[view];
-    const double depth = static_cast<double>(key >> 32) / key_depth_one - key_depth_zero;
-    return {static_cast<float>(depth), surface, static_cast<std::uint32_t>(sides),
-            static_cast<std::uint32_t>(sides >> 32)};
-}
-
 }  // namespace
 
 void Projector::order_list(const Projection& projection, std::int32_t column, std::int32_t row,
@@ -163,18 +149,24 @@ void Projector::layer_pairs(const Projection& projection, std::size_t tile, Work
                         near_tie(projection.bundle.spacing, radius_)};
     fill_layers(mesh, work.layers);
     pairs.reserve(work.layers.hits());
-    work.unsure_lines.clear();
-    pair_layers(mesh, work.layers, work.view_cache, pairs, work.unsure_lines);
+    work.view_cache.reset(mesh.count);
+    work.left_lines.clear();
+    const KeyTies ties(mesh, work.layers, centre_, work.slack, work.relations);
+    pair_layers(mesh, work.layers, work.view_cache, ties, pairs, work.left_lines);
 
-    // The lines whose order the depths left open, as lists() would have them.
-    const UnsureLists& unsure = work.unsure_lines;
-    for (std::size_t n = 0, key = 0; n < unsure.lines.size(); ++n) {
-        const std::int32_t line = unsure.lines[n];
+    // The lines that were left, as lists() would have them.
+    for (std::int32_t line : work.left_lines) {
         const std::int32_t row = mesh.bounds.top + line / HitLayers::side;
         const std::int32_t column = mesh.bounds.left + line % HitLayers::side;
-        std::size_t first = work.lists.hits.size();
-        for (; key < unsure.end[n]; ++key)
-            work.lists.hits.push_back(layer_hit(mesh, unsure.keys[key], column, row, work));
+        const std::size_t first = work.lists.hits.size();
+        work.keys.clear();
+        work.layers.append_keys(line, work.keys);
+        for (HitKey key : work.keys) {
+            const SurfaceView& view =
+                work.view_cache.of(mesh, static_cast<std::uint32_t>(key) >> 1);
+            work.slack[view.surface] = view.moved;
+            work.lists.hits.push_back(hit_at(view, column, row));
+        }
         order_list(projection, column, row, first, work);
     }
 }

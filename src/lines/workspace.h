@@ -28,7 +28,8 @@ struct Projector::Workspace {
     HitLayers layers;
     ViewCache view_cache;
     std::vector<UnsureLines> unsure_blocks;  ///< lines whose order the painter could not tell
-    UnsureLists unsure_lines;                ///< or the layers' depths
+    std::vector<std::int32_t> left_lines;    ///< or that the layers cannot hold
+    std::vector<HitKey> keys;                ///< of one of those
     IntersectionLists lists;                 ///< of those lines
 };
 
