@@ -4,14 +4,15 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
+#include <sched.h>
+
 #ifndef PARALLUX_STD_THREADS
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 #endif
 
 namespace parallux {
@@ -48,42 +49,189 @@ struct Pieces {
     }
 };
 
+// The processors that the program may use.
+class Processors {
+public:
+    Processors() { known_ = sched_getaffinity(0, sizeof allowed_, &allowed_) == 0; }
+
+    unsigned count() const { return known_ ? static_cast<unsigned>(CPU_COUNT(&allowed_)) : 0; }
+    void bind(unsigned worker) const {
+        for (int processor = 0; processor < CPU_SETSIZE; ++processor)
+            if (CPU_ISSET(processor, &allowed_) && worker-- == 0) {
+                cpu_set_t own;
+                CPU_ZERO(&own);
+                CPU_SET(processor, &own);
+                sched_setaffinity(0, sizeof own, &own);
+                return;
+            }
+    }
+    void unbind() const { sched_setaffinity(0, sizeof allowed_, &allowed_); }
+
+private:
+    cpu_set_t allowed_;
+    bool known_;
+};
+
+// Where the threads take up all processors, each keeps one of its own until its binding ends: some
+// kernels wake a worker on the processor of the thread that woke it and leave both there, while
+// another idles. The processors are the crew's: a new thread begins with its maker's binding.
+class Binding {
+public:
+    Binding(const Processors& processors, unsigned worker, unsigned threads)
+        : processors_(processors), bound_(processors.count() == threads) {
+        if (bound_)
+            processors_.bind(worker);
+    }
+    ~Binding() {
+        if (bound_)
+            processors_.unbind();
+    }
+    Binding(const Binding&) = delete;
+    Binding& operator=(const Binding&) = delete;
+
+private:
+    const Processors& processors_;
+    bool bound_;
+};
+
+thread_local Team::Crew* own_crew = nullptr;
+
 }  // namespace
+
+// Workers that take part in one loop after another. The owner publishes a loop and closes it again
+// when no piece is left; a worker that comes too late finds it closed, which is harmless.
+class Team::Crew {
+public:
+    explicit Crew(unsigned threads) : threads_(threads), binding_(processors_, 0, threads) {
+#ifdef PARALLUX_STD_THREADS
+        for (unsigned worker = 1; worker < threads; ++worker)
+            members_.emplace_back([this, worker] { serve(worker); });
+#else
+        // More threads than cores, for tests, must be allowed first.
+        arena_.execute([&] {
+            for (unsigned worker = 1; worker < threads; ++worker)
+                members_.run([this, worker] { serve(worker); });
+        });
+#endif
+    }
+
+    ~Crew() {
+        closing_.store(true);
+        call();
+#ifdef PARALLUX_STD_THREADS
+        for (std::thread& member : members_)
+            member.join();
+#else
+        arena_.execute([&] { members_.wait(); });
+#endif
+    }
+
+    unsigned threads() const {
+        return threads_;
+    }
+    bool busy() const {
+        return pieces_.load(std::memory_order_relaxed) != nullptr;
+    }
+
+    void run(Pieces& pieces) {
+        pieces_.store(&pieces);
+        call();
+        pieces.work(0);
+        pieces_.store(nullptr);
+        while (inside_.load() != 0)
+            pause();
+    }
+
+private:
+    // Turns of waiting on the processor before a worker sleeps; about a millisecond.
+    static constexpr int patience = 1 << 15;
+
+    static void pause() {
+#if defined(__x86_64__)
+        __builtin_ia32_pause();
+#else
+        std::this_thread::yield();
+#endif
+    }
+
+    void call() {
+        calls_.fetch_add(1);
+        calls_.notify_all();
+    }
+
+    void serve(unsigned worker) {
+        if (closing_.load())
+            return;
+        Binding binding(processors_, worker, threads_);
+        for (unsigned seen = 0; !closing_.load();) {
+            seen = next_call(seen);
+            ++inside_;
+            if (Pieces* pieces = pieces_.load())
+                pieces->work(worker);
+            --inside_;
+        }
+    }
+
+    unsigned next_call(unsigned seen) {
+        for (int turn = 0; turn < patience; ++turn) {
+            if (unsigned call = calls_.load(std::memory_order_acquire); call != seen)
+                return call;
+            pause();
+        }
+        calls_.wait(seen);
+        return calls_.load();
+    }
+
+    unsigned threads_;
+    Processors processors_;
+    Binding binding_;
+    std::atomic<unsigned> calls_{0};
+    std::atomic<Pieces*> pieces_{nullptr};
+    std::atomic<unsigned> inside_{0};
+    std::atomic<bool> closing_{false};
+#ifdef PARALLUX_STD_THREADS
+    std::vector<std::thread> members_;
+#else
+    tbb::global_control allowed_{tbb::global_control::max_allowed_parallelism,
+                                 std::max(threads_, std::thread::hardware_concurrency())};
+    tbb::task_arena arena_{static_cast<int>(threads_)};
+    tbb::task_group members_;
+#endif
+};
+
+Team::Team(unsigned threads) {
+    if (own_crew || thread_count(threads) == 1)
+        return;
+    crew_ = std::make_unique<Crew>(thread_count(threads));
+    own_crew = crew_.get();
+}
+
+Team::~Team() {
+    if (crew_)
+        own_crew = nullptr;
+}
 
 void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t, unsigned)>& body) {
     if (count == 0)
         return;
     grain = std::max<std::size_t>(1, grain);
-    std::size_t pieces_wanted = (count - 1) / grain + 1;
-    unsigned workers =
-        static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), pieces_wanted));
-    Pieces pieces{count, grain, body, {}, {}, {}};
-    if (workers == 1) {
-        pieces.work(0);
-    } else {
-#ifdef PARALLUX_STD_THREADS
-        std::vector<std::thread> team;
-        for (unsigned worker = 1; worker < workers; ++worker)
-            team.emplace_back([&pieces, worker] { pieces.work(worker); });
-        pieces.work(0);
-        for (std::thread& thread : team)
-            thread.join();
-#else
-        // More threads than cores, for tests, must be allowed first.
-        std::optional<tbb::global_control> allowed;
-        if (workers > std::thread::hardware_concurrency())
-            allowed.emplace(tbb::global_control::max_allowed_parallelism, workers);
-        // The arena may offer fewer threads than workers: a worker that starts late finds no
-        // pieces left, which is harmless.
-        tbb::task_arena arena(static_cast<int>(workers));
-        arena.execute([&] {
-            tbb::parallel_for(
-                0u, workers, [&pieces](unsigned worker) { pieces.work(worker); },
-                tbb::static_partitioner{});
-        });
-#endif
+    const std::size_t wanted = (count - 1) / grain + 1;
+    if (wanted == 1 || thread_count(threads) == 1 || (own_crew && own_crew->busy())) {
+        for (std::size_t begin = 0; begin < count; begin += grain)
+            body(begin, std::min(begin + grain, count), 0);
+        return;
     }
+    // A loop outside a team, or of other threads than its own, brings its own workers.
+    Team::Crew* crew = own_crew;
+    std::unique_ptr<Team::Crew> hired;
+    if (!crew || crew->threads() != thread_count(threads)) {
+        hired = std::make_unique<Team::Crew>(
+            static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), wanted)));
+        crew = hired.get();
+    }
+    Pieces pieces{count, grain, body, {}, {}, {}};
+    crew->run(pieces);
     if (pieces.failure)
         std::rethrow_exception(pieces.failure);
 }

@@ -36,28 +36,14 @@ public:
             buffers.workspace = projector_.make_workspace();
     }
 
-    // Projects the bundles side by side, then follows the tiles of all of them.
+    // Projects bundles and follows their tiles.
     void bundles(std::uint64_t first, std::uint32_t count) {
-        projections_.resize(std::max<std::size_t>(projections_.size(), count));
-        parallel_for(plan_.threads, count, 1, [&](std::size_t begin, std::size_t end, unsigned) {
-            for (std::size_t k = begin; k < end; ++k)
-                projector_.project(make_bundle({settings_.seed, plan_.bundles, settings_.directions,
-                                                plan_.spacing},
-                                               first + k),
-                                   projections_[k]);
-        });
-        std::vector<std::size_t> tiles_before(count + 1, 0);
-        for (std::uint32_t k = 0; k < count; ++k)
-            tiles_before[k + 1] = tiles_before[k] + projections_[k].tiles();
-        parallel_for(plan_.threads, tiles_before.back(), 4,
-                     [&](std::size_t begin, std::size_t end, unsigned worker) {
-                         for (std::size_t tile = begin; tile < end; ++tile) {
-                             std::size_t k = static_cast<std::size_t>(
-                                 std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
-                                 tiles_before.begin() - 1);
-                             follow_tile(projections_[k], tile - tiles_before[k], worker);
-                         }
-                     });
+        if (scene_.surfaces.size() > many_surfaces)
+            one_by_one(first, count);
+        else if (count >= 4 * plan_.threads)
+            whole_bundles(first, count);
+        else
+            side_by_side(first, count);
     }
 
     // Traces independent lines first … first + count - 1 and follows them.
@@ -78,6 +64,60 @@ public:
     void darken_sky() { lit_ = false; }
 
 private:
+    // Of large scenes, a bundle is work for all threads, and one projection memory enough.
+    static constexpr std::size_t many_surfaces = 1 << 13;
+
+    Bundle bundle(std::uint64_t index) const {
+        return make_bundle({settings_.seed, plan_.bundles, settings_.directions, plan_.spacing},
+                           index);
+    }
+
+    void one_by_one(std::uint64_t first, std::uint32_t count) {
+        projections_.resize(1);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            projector_.project(bundle(first + k), projections_[0], plan_.threads);
+            parallel_for(plan_.threads, projections_[0].tiles(), 1,
+                         [&](std::size_t begin, std::size_t end, unsigned worker) {
+                             for (std::size_t tile = begin; tile < end; ++tile)
+                                 follow_tile(projections_[0], tile, worker);
+                         });
+        }
+    }
+
+    // Bundles enough for all threads: each takes one after the other from end to end.
+    void whole_bundles(std::uint64_t first, std::uint32_t count) {
+        projections_.resize(std::max<std::size_t>(projections_.size(), plan_.threads));
+        parallel_for(plan_.threads, count, 1,
+                     [&](std::size_t begin, std::size_t end, unsigned worker) {
+                         for (std::size_t k = begin; k < end; ++k) {
+                             projector_.project(bundle(first + k), projections_[worker]);
+                             for (std::size_t tile = 0; tile < projections_[worker].tiles(); ++tile)
+                                 follow_tile(projections_[worker], tile, worker);
+                         }
+                     });
+    }
+
+    // Projects the bundles first, then follows the tiles of all of them.
+    void side_by_side(std::uint64_t first, std::uint32_t count) {
+        projections_.resize(std::max<std::size_t>(projections_.size(), count));
+        parallel_for(plan_.threads, count, 1, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t k = begin; k < end; ++k)
+                projector_.project(bundle(first + k), projections_[k]);
+        });
+        std::vector<std::size_t> tiles_before(count + 1, 0);
+        for (std::uint32_t k = 0; k < count; ++k)
+            tiles_before[k + 1] = tiles_before[k] + projections_[k].tiles();
+        parallel_for(plan_.threads, tiles_before.back(), 1,
+                     [&](std::size_t begin, std::size_t end, unsigned worker) {
+                         for (std::size_t tile = begin; tile < end; ++tile) {
+                             std::size_t k = static_cast<std::size_t>(
+                                 std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
+                                 tiles_before.begin() - 1);
+                             follow_tile(projections_[k], tile - tiles_before[k], worker);
+                         }
+                     });
+    }
+
     void follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
         Buffers& buffers = buffers_[worker];
         projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "parallel.h"
 #include "reference/matrix.h"
 #include "reference/particles.h"
 #include "reference/progressive.h"
@@ -52,6 +53,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
+    Team team(plan.threads);
     Run run{scene, patches, settings, plan, rays.get(), banks, listener};
     DirectLight direct = first_shot(run);
     seconds.first_shot = first_watch.seconds();
