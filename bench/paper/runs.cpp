@@ -112,18 +112,21 @@ Twofold follow_and_count(const Room& room, const SolveSettings& settings) {
     const Plan plan = make_plan(room.scene, patches, settings);
     const ProgressCallback nobody;
     Listener listener(nobody, 0);
-    DeltaBanks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
+    Banks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
     const RayScene rays(room.scene, plan.threads);
     const Run run{room.scene, patches, settings, plan, &rays, banks, listener};
-    const DirectLight direct = first_shot(run);
+    DirectLight direct = first_shot(run);
+    settle(run, direct);
     TransferState state = dark_state(patches, plan.watts_per_quantum);
-    set_emission(run, direct, state);
+    state.emission = emission_of(run, direct);
+    state.emission.quanta = emission_quanta(plan, state);
+    banks.join(plan.threads);
     CountedLines counted(room.scene, patches);
     PassResult pass;
     trace_in_order({rays, room.scene, patches, plan.sphere, settings.seed, plan.lines, false, 1},
                    [&](const IntersectionLists& lists, const std::vector<glm::dvec3>& directions,
                        std::uint64_t) {
-                       exchange_in_order(lists, state, patches, settings.direction, {},
+                       exchange_in_order(lists, state, banks.of(0), patches, settings.direction, {},
                                          pass.counts);
                        counted.count(lists, directions);
                        return true;

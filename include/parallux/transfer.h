@@ -32,27 +32,43 @@ constexpr std::uint32_t lanes(std::uint32_t bands) {
     return bands < 2 ? 2 : bands < 4 ? 4 : bands < 8 ? 8 : 12;
 }
 
-/// Where the energy is. Arrays hold bands together: unshot[patch * bands + band].
+/// What has arrived and left since a bank was last cleared: received[patch * lanes + band], and
+/// behind the bands the exits, so that one addition both sends and counts.
+struct Bank {
+    AlignedArray<std::int64_t> received;
+};
+
+/// What patches send of their own: quanta * (own + reflectance * direct) with every exit, all run
+/// long. Arrays hold bands together, W/m²; an empty one is dark. They must outlive their use.
+struct Emission {
+    std::span<const float> own;
+    std::span<const float> direct;
+    double quanta = 0;  ///< of an exit, per W/m²
+
+    /// Quanta an exit carries, k = patch * bands + band.
+    double of_exit(const Patches& patches, std::size_t k) const {
+        double exitance = own.empty() ? 0 : own[k];
+        if (!direct.empty())
+            exitance += static_cast<double>(patches.reflectance[k]) * direct[k];
+        return quanta * exitance;
+    }
+};
+
+/// Where the energy is, beside what the banks hold. A patch has llrint(reflectance * received) -
+/// sent quanta unshot.
 struct TransferState {
     std::uint32_t bands = 0;
-    double watts_per_quantum = 0;        ///< a power of two
-    std::vector<std::int64_t> unshot;    ///< reflected power not yet sent on
-    std::vector<std::int64_t> received;  ///< power that arrived in the global pass
-    std::vector<std::int64_t> emission;  ///< sent with every exit, all run long
-    /// Carried by an exit of this batch: emission + share. quanta[patch * lanes + band]; behind the
-    /// bands stands 1, the exit itself, so that one addition both sends and counts.
-    QuantaArray quanta;
-    std::vector<std::uint64_t> exits;    ///< lines that left the patch so far
+    double watts_per_quantum = 0;  ///< a power of two
+    Emission emission;
+    std::uint32_t merges = 0;        ///< so far; dithers what exits carry
+    std::vector<std::int64_t> sent;  ///< reflected power sent on; sent[patch * bands + band]
+    /// Carried by an exit of this batch: emission + share. carried[patch * lanes + band]; behind
+    /// the bands the exits that the last merge has seen, modulo 2³². Empty before the first merge.
+    AlignedArray<std::int32_t> carried;
     std::vector<std::int64_t> sky;       ///< band totals of what the sky sent in
     std::vector<std::int64_t> emitted;   ///< band totals of emission quanta sent
     std::vector<std::int64_t> absorbed;  ///< band totals
     std::vector<std::int64_t> escaped;
-};
-
-/// What one or more workers add to the state within a batch: received[patch * lanes + band], and
-/// behind the bands the exits.
-struct Deltas {
-    QuantaArray received;
 };
 
 /// A worker's own totals within a batch; no two share a cache line.
@@ -69,37 +85,46 @@ struct SkyQuanta {
     std::int64_t against[max_bands] = {};  ///< entering at the last hit, travelling back
 };
 
+/// What exits are to carry from a merge on.
+struct Share {
+    double cell = 0;  ///< area across the direction that one line stands for, δ² of a bundle
+    std::uint32_t batch = 1;  ///< bundles that share what is unshot
+    double emission = 0;      ///< Emission::quanta from then on
+};
+
+/// The most that an exit carries of what is unshot; what would be more stays unshot.
+inline constexpr std::int32_t most_carried = 1 << 30;
+
 /// A state without any energy in it. O(patches).
 TransferState dark_state(const Patches& patches, double watts_per_quantum);
 
-/// Sets what every exit carries until the next merge: its emission quantum and the linear share
-/// min(1, cell / area) / batch of its unshot energy. `cell` is the area across the direction that
-/// one line stands for (δ² of a bundle). O(patches), in parallel.
-void share_unshot(TransferState& state, const Patches& patches, double cell, std::uint32_t batch,
-                  unsigned threads);
-
-/// Follows the lists: neighbours on a line that face each other send each other their quanta
+/// Follows the lists: neighbours on a line that face each other send each other what they carry
 /// (oriented: only along the direction). What meets the back of a one-sided surface or leaves the
 /// scene is counted as escaped; it goes no further. `sky` is empty, one for all lines (a bundle) or
-/// one a line. `shared`: another worker may add to the same
-/// deltas at this time, so that additions are atomic.
+/// one a line. `shared`: another worker may add to the same bank at this time, so that additions
+/// are atomic.
 void exchange(const IntersectionLists& lists, const TransferState& state, Direction direction,
-              std::span<const SkyQuanta> sky, Deltas& deltas, bool shared, WorkerTotals& totals);
+              std::span<const SkyQuanta> sky, Bank& bank, bool shared, WorkerTotals& totals);
 
 /// The same for the pairs of a bundle's lines, all under one sky.
 void exchange_pairs(const TilePairs& pairs, const TransferState& state, Direction direction,
-                    const SkyQuanta* sky, Deltas& deltas, bool shared, WorkerTotals& totals);
+                    const SkyQuanta* sky, Bank& bank, bool shared, WorkerTotals& totals);
 
 /// Follows the lists one line after the other, as the paper prints it: of every pair the first
 /// sends the second all that is unshot, and its emission quantum (bidirectional: both do, at once);
-/// the reflected share of what arrives is unshot from then on. The state is exact after each line.
-/// Ends and backs count as in exchange(). Serial by nature.
-void exchange_in_order(const IntersectionLists& lists, TransferState& state, const Patches& patches,
-                       Direction direction, std::span<const SkyQuanta> sky, LineCounts& counts);
+/// the reflected share of what arrives is unshot from then on. State and bank are exact after each
+/// line. Ends and backs count as in exchange(). Serial by nature.
+void exchange_in_order(const IntersectionLists& lists, TransferState& state, Bank& bank,
+                       const Patches& patches, Direction direction, std::span<const SkyQuanta> sky,
+                       LineCounts& counts);
 
-/// Adds all deltas and totals to the state and clears them: what was sent leaves unshot, what came
-/// is absorbed or becomes unshot, exactly. O(patches), in parallel.
-void merge(TransferState& state, const Patches& patches, std::vector<Deltas>& deltas,
-           std::vector<WorkerTotals>& totals, unsigned threads);
+/// Takes up what the banks have got since the last merge: what was sent leaves unshot, what came is
+/// absorbed or becomes unshot, exactly. Then sets what every exit carries until the next merge: its
+/// emission and the linear share min(1, cell / area) / batch of its unshot energy, dithered from
+/// merge to merge so that what is less than a quantum is carried in the mean. The banks keep what
+/// they have; workers' totals are cleared. Between two merges a patch may be left by fewer than 2³¹
+/// lines. O(patches), in parallel.
+void merge(TransferState& state, const Patches& patches, const std::vector<Bank>& banks,
+           std::vector<WorkerTotals>& totals, const Share& next, unsigned threads);
 
 }  // namespace parallux

@@ -184,8 +184,9 @@ std::uint64_t matrix_bytes(std::uint64_t patches) {
     return patches * patches * sizeof(std::uint32_t);
 }
 
-PassResult matrix_pass(const Run& run, const DirectLight& direct, TransferState& state) {
+PassResult matrix_pass(const Run& run, DirectLight& direct, TransferState& state) {
     const std::uint32_t bands = state.bands;
+    settle(run, direct);
     PassResult result;
 
     // Count the lines.
@@ -208,25 +209,31 @@ PassResult matrix_pass(const Run& run, const DirectLight& direct, TransferState&
         });
     result.counts = counted_lines.counts();
     result.whole = done == run.plan.lines;
-    state.exits = counted_lines.exits();
-    if (auto unseen = std::count(state.exits.begin(), state.exits.end(), 0u); unseen > 0)
+    const std::vector<std::uint64_t>& exits = counted_lines.exits();
+    for (std::size_t patch = 0; patch < exits.size(); ++patch)
+        run.banks.of(0).received[patch * lanes(bands) + bands] +=
+            static_cast<std::int64_t>(exits[patch]);
+    if (auto unseen = std::count(exits.begin(), exits.end(), 0u); unseen > 0)
         result.warnings.push_back(std::to_string(unseen) +
                                   " patches were left by no line and stay dark");
 
-    // Solve each band, and say where its power went.
+    // Solve each band, and say where its power went: all that was reflected has been sent on.
+    Emission exitance = emission_of(run, direct);
+    exitance.quanta = 1;
     for (std::uint32_t band = 0; band < bands; ++band) {
         std::vector<double> emission(run.patches.count());
         for (std::size_t patch = 0; patch < emission.size(); ++patch)
-            emission[patch] = static_cast<double>(direct.unshot[patch * bands + band]) *
-                              state.watts_per_quantum / run.patches.area[patch];
+            emission[patch] = exitance.of_exit(run.patches, patch * bands + band);
         const std::vector<double> irradiance = counted_lines.irradiance(emission, band);
         for (std::size_t patch = 0; patch < emission.size(); ++patch) {
             std::size_t k = patch * bands + band;
             double quanta = run.patches.area[patch] / state.watts_per_quantum;
-            state.received[k] = std::llrint(irradiance[patch] * quanta);
+            std::int64_t received = std::llrint(irradiance[patch] * quanta);
             std::int64_t reflected = std::llrint(static_cast<double>(run.patches.reflectance[k]) *
-                                                 static_cast<double>(state.received[k]));
-            state.absorbed[band] += state.received[k] - reflected;
+                                                 static_cast<double>(received));
+            run.banks.receive(0, k, received);
+            state.sent[k] = reflected;
+            state.absorbed[band] += received - reflected;
             state.escaped[band] +=
                 std::llrint((emission[patch] * quanta + static_cast<double>(reflected)) *
                             counted_lines.escaped(patch));

@@ -51,7 +51,7 @@ private:
 /// matrix_bytes(). A patch that no line left stays dark, with a warning. Counted form factors do
 /// not keep A_i F_ij = A_j F_ji, so that the power received differs from that sent by the noise of
 /// the counts: the balance has the difference as unshot.
-PassResult matrix_pass(const Run& run, const DirectLight& direct, TransferState& state);
+PassResult matrix_pass(const Run& run, DirectLight& direct, TransferState& state);
 
 /// Bytes of the counts between so many patches.
 std::uint64_t matrix_bytes(std::uint64_t patches);

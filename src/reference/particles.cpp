@@ -91,8 +91,13 @@ private:
 
 PassResult particle_pass(const Run& run, DirectLight& direct, TransferState& state) {
     add_sky_points(run, direct);
+    settle(run, direct);
     PassResult result;
-    const Emitters emitters = emitters_of(run.scene, run.patches, direct.unshot);
+    Emission exitance = emission_of(run, direct);
+    exitance.quanta = 1 / run.plan.watts_per_quantum;
+    const Emitters emitters = emitters_of(run.scene, run.patches, [&](std::size_t k) {
+        return std::llrint(run.patches.area[k / state.bands] * exitance.of_exit(run.patches, k));
+    });
     if (emitters.pieces.empty())
         return result;
 
@@ -118,16 +123,20 @@ PassResult particle_pass(const Run& run, DirectLight& direct, TransferState& sta
     result.whole = done == run.plan.lines;
     result.counts.nonempty = result.counts.hits;
 
-    // Every walk has ended: what did not escape was absorbed. Particles stopped early stand for
-    // those not born.
-    run.banks.collect(state.received, state.emitted, state.escaped);
+    // Every walk has ended: what did not escape was absorbed, what was reflected sent on. Particles
+    // stopped early stand for those not born.
+    run.banks.take_totals(state.emitted, state.escaped);
     for (std::uint32_t band = 0; band < state.bands; ++band) {
         state.emitted[band] = std::llrint(static_cast<double>(state.emitted[band]) / result.done);
         state.escaped[band] = std::llrint(static_cast<double>(state.escaped[band]) / result.done);
         state.absorbed[band] = state.emitted[band] - state.escaped[band];
     }
-    for (std::int64_t& received : state.received)
-        received = std::llrint(static_cast<double>(received) / result.done);
+    result.received = 1 / result.done;
+    for (std::size_t k = 0; k < state.sent.size(); ++k)
+        state.sent[k] =
+            std::llrint(static_cast<double>(run.patches.reflectance[k]) *
+                        static_cast<double>(run.banks.received(
+                            k / state.bands, static_cast<std::uint32_t>(k % state.bands))));
     return result;
 }
 

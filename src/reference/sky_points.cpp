@@ -40,6 +40,7 @@ void add_sky_points(const Run& run, DirectLight& direct) {
         return;
     const std::uint32_t bands = run.patches.bands;
     const std::vector<Emitter> cells = all_cells(run.scene, run.patches);
+    direct.arrived = true;
     const Sobol sobol(mix64(run.settings.seed + 1));
     std::vector<Spectrum> irradiance(cells.size());
     parallel_for(
@@ -57,12 +58,8 @@ void add_sky_points(const Run& run, DirectLight& direct) {
             std::size_t at = cell.patch * std::size_t(bands) + band;
             std::int64_t received =
                 std::llrint(area * irradiance[k][band] / run.plan.watts_per_quantum);
-            std::int64_t reflected = std::llrint(static_cast<double>(run.patches.reflectance[at]) *
-                                                 static_cast<double>(received));
-            direct.received[at] += received;
-            direct.unshot[at] += reflected;
+            run.banks.receive(0, at, received);
             direct.emitted[band] += received;
-            direct.absorbed[band] += received - reflected;
         }
     }
 }

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
-#include <utility>
+#include <vector>
 
 #include "random.h"
 #include "solve/emitters.h"
@@ -17,33 +16,30 @@ namespace {
 
 constexpr double least_rays = 64;
 
-// Unshot power of a patch over all bands.
-double unshot_of(const DirectLight& direct, std::size_t patch, std::uint32_t bands) {
-    double sum = 0;
-    for (std::uint32_t band = 0; band < bands; ++band)
-        sum += static_cast<double>(direct.unshot[patch * bands + band]);
-    return sum;
-}
-
 double sum_of(const std::vector<std::int64_t>& quanta) {
     return std::accumulate(quanta.begin(), quanta.end(), 0.0,
                            [](double sum, std::int64_t q) { return sum + static_cast<double>(q); });
 }
 
-// Takes over what one shot brought: received, absorbed in part, the rest unshot.
-void take_over(const Run& run, DirectLight& shot, DirectLight& direct) {
-    for (std::size_t k = 0; k < shot.received.size(); ++k) {
-        if (shot.received[k] == 0)
-            continue;
-        std::int64_t received = std::exchange(shot.received[k], 0);
-        std::int64_t reflected = std::llrint(static_cast<double>(run.patches.reflectance[k]) *
-                                             static_cast<double>(received));
-        direct.received[k] += received;
-        direct.unshot[k] += reflected;
-        direct.absorbed[k % run.patches.bands] += received - reflected;
+// The patch with most unshot power over all bands, that power, and what all have together.
+struct Brightest {
+    std::uint32_t patch = 0;
+    std::int64_t most = 0, all = 0;
+};
+
+Brightest brightest_of(const Run& run, const DirectLight& direct) {
+    Brightest found;
+    for (std::uint32_t patch = 0; patch < run.patches.count(); ++patch) {
+        std::int64_t unshot = 0;
+        for (std::uint32_t band = 0; band < run.patches.bands; ++band)
+            unshot += unshot_quanta(run, direct, patch * std::size_t(run.patches.bands) + band);
+        found.all += unshot;
+        if (unshot > found.most) {
+            found.most = unshot;
+            found.patch = patch;
+        }
     }
-    for (std::size_t band = 0; band < shot.escaped.size(); ++band)
-        direct.escaped[band] += std::exchange(shot.escaped[band], 0);
+    return found;
 }
 
 }  // namespace
@@ -51,50 +47,44 @@ void take_over(const Run& run, DirectLight& shot, DirectLight& direct) {
 void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSettings& settings) {
     const std::uint32_t bands = run.patches.bands;
     const PatchCells cells(run.scene, run.patches);
-    DirectLight shot;
-    shot.received.assign(direct.received.size(), 0);
-    shot.emitted.assign(bands, 0);
-    shot.escaped.assign(bands, 0);
+    direct.arrived = true;
+    direct.shot.assign(run.patches.reflectance.size(), 0);
     const double emitted = sum_of(direct.emitted), enough = settings.until * emitted;
-    double left = sum_of(direct.unshot);
-    auto go_on = [&] {
+    auto go_on = [&](double left) {
         double done = settings.shots
                           ? static_cast<double>(direct.shots) / static_cast<double>(settings.shots)
                           : enough / std::max(left, enough);
         return run.listener.go_on("shots", done, direct.rays);
     };
 
-    while (left > enough && (settings.shots == 0 || direct.shots < settings.shots) && go_on()) {
-        // Choose the patch with most unshot power, and take the power from it.
-        std::size_t patch = 0;
-        double most = 0;
-        for (std::size_t k = 0; k < run.patches.count(); ++k)
-            if (double unshot = unshot_of(direct, k, bands); unshot > most) {
-                most = unshot;
-                patch = k;
-            }
-        if (most <= 0)
+    while (settings.shots == 0 || direct.shots < settings.shots) {
+        // Choose the patch with most unshot power.
+        const Brightest brightest = brightest_of(run, direct);
+        const double left = static_cast<double>(brightest.all);
+        if (!(left > enough) || !go_on(left) || brightest.most <= 0)
             break;
-        std::span<std::int64_t> power(&direct.unshot[patch * bands], bands);
-        Emitters emitters = cells.emitters(static_cast<std::uint32_t>(patch), power);
+        const std::size_t first = brightest.patch * std::size_t(bands);
+        std::vector<std::int64_t> power;
+        for (std::uint32_t band = 0; band < bands; ++band)
+            power.push_back(unshot_quanta(run, direct, first + band));
+        Emitters emitters = cells.emitters(brightest.patch, power);
 
         // Shoot it: what left the patch is what the shot says it emitted.
+        std::vector<std::int64_t> shot(bands, 0);
         if (run.plan.first_shot == FirstShot::exact) {
-            shoot_exact(run, emitters, shot);
+            shoot_exact(run, emitters, shot, direct.escaped);
         } else {
-            auto rays = static_cast<std::uint64_t>(
-                std::clamp(most / emitted * settings.rays, least_rays, 4e9));
+            auto rays = static_cast<std::uint64_t>(std::clamp(
+                static_cast<double>(brightest.most) / emitted * settings.rays, least_rays, 4e9));
             shoot_rays(run, emitters, rays,
                        mix64(run.settings.seed + 0x9e3779b97f4a7c15ull * (direct.shots + 1)),
                        [&](double) { return !run.listener.stopped(); });
-            run.banks.collect(shot.received, shot.emitted, shot.escaped);
+            run.banks.take_totals(shot, direct.escaped);
             direct.rays += rays;
         }
         for (std::uint32_t band = 0; band < bands; ++band)
-            power[band] -= std::exchange(shot.emitted[band], 0);
-        take_over(run, shot, direct);
+            direct.shot[first + band] += shot[band];
         ++direct.shots;
-        left = sum_of(direct.unshot);
     }
 }
 

@@ -51,13 +51,18 @@ std::size_t Emitters::choose(double at) const {
 }
 
 Emitters emitters_of(const Scene& scene, const Patches& patches,
-                     std::span<const std::int64_t> power) {
+                     const std::function<std::int64_t(std::size_t)>& power) {
     Emitters emitters;
     emitters.bands = patches.bands;
     for_all_cells(scene, patches, [&](const Emitter& piece, double area) {
-        auto own = power.subspan(std::size_t(piece.patch) * patches.bands, patches.bands);
-        if (std::any_of(own.begin(), own.end(), [](std::int64_t quanta) { return quanta > 0; }))
-            add(emitters, piece, area / patches.area[piece.patch], own);
+        std::int64_t own[max_bands];
+        bool any = false;
+        for (std::uint32_t band = 0; band < patches.bands; ++band) {
+            own[band] = power(std::size_t(piece.patch) * patches.bands + band);
+            any = any || own[band] > 0;
+        }
+        if (any)
+            add(emitters, piece, area / patches.area[piece.patch], {own, patches.bands});
     });
     close(emitters);
     return emitters;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,10 +33,10 @@ struct Emitters {
     std::size_t choose(double at) const;
 };
 
-/// All cells whose patch has power. A patch of several cells sends from each by its area. Linear in
-/// the cells.
+/// All cells whose patch has power: power(patch * bands + band) quanta. A patch of several cells
+/// sends from each by its area. Linear in the cells.
 Emitters emitters_of(const Scene& scene, const Patches& patches,
-                     std::span<const std::int64_t> power);
+                     const std::function<std::int64_t(std::size_t)>& power);
 
 /// All cells and sides, surface by surface.
 std::vector<Emitter> all_cells(const Scene& scene, const Patches& patches);

@@ -55,7 +55,7 @@ public:
                             end - begin, buffers.lists, lit_ ? &buffers.directions : nullptr);
                 buffers.sky.clear();
                 for (std::size_t k = 0; lit_ && k < buffers.directions.size(); ++k)
-                    buffers.sky.push_back(sky_quanta(scene_, plan_, buffers.directions[k]));
+                    buffers.sky.push_back(sky_quanta(scene_, plan_, state_, buffers.directions[k]));
                 exchange(buffers.lists, state_, settings_.direction, buffers.sky, banks_.of(worker),
                          banks_.shared(), banks_.totals(worker));
             });
@@ -123,7 +123,7 @@ private:
         projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
         SkyQuanta sky;
         if (lit_)
-            sky = sky_quanta(scene_, plan_, projection.bundle.direction);
+            sky = sky_quanta(scene_, plan_, state_, projection.bundle.direction);
         exchange_pairs(buffers.pairs, state_, settings_.direction, lit_ ? &sky : nullptr,
                        banks_.of(worker), banks_.shared(), banks_.totals(worker));
     }
@@ -134,7 +134,7 @@ private:
     const SolveSettings& settings_;
     const Plan& plan_;
     const TransferState& state_;
-    DeltaBanks& banks_;
+    Banks& banks_;
     std::vector<Buffers> buffers_;
     bool lit_;
     Projector projector_;
@@ -157,12 +157,11 @@ double lag(const TransferState& state, std::uint64_t done) {
 // How many bundles work from the next snapshot. A bounce takes about two batches: batches grow to
 // the wanted size while the light keeps up, shrink where it lags by more than 1/32 of the run
 // (white walls, narrow gaps), and shrink towards the end, so that little is left unshot there.
-std::uint32_t next_batch(const Plan& plan, const TransferState& state, std::uint64_t done,
-                         std::uint32_t last) {
+std::uint32_t next_batch(const Plan& plan, double lagging, std::uint64_t done, std::uint32_t last) {
     std::uint64_t emitting = plan.bundles - plan.closing;
     if (done >= emitting)
         return 1;
-    bool behind = lag(state, done) > static_cast<double>(plan.bundles) / 32;
+    bool behind = lagging > static_cast<double>(plan.bundles) / 32;
     std::uint64_t wanted = behind ? last / 2 : std::min(2 * last, plan.batch);
     std::uint64_t left = emitting - done;
     wanted = std::min(wanted, left / 8);
@@ -171,26 +170,35 @@ std::uint32_t next_batch(const Plan& plan, const TransferState& state, std::uint
 
 }  // namespace
 
-PassResult global_pass(const Run& run, const DirectLight& direct, TransferState& state) {
+PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state) {
     const Plan& plan = run.plan;
     const bool bundles = run.settings.method == Method::bundles;
-    set_emission(run, direct, state);
+    settle(run, direct);
+    state.emission = emission_of(run, direct);
+    state.watts_per_quantum = carried_quantum(run, state.emission);
     Pass pass(run, state);
     PassResult result;
-    result.leftover.emplace(run.scene, run.patches, direct.unshot);
-    std::uint64_t emitting = plan.bundles - plan.closing;
-    std::uint64_t halfway = emitting + plan.closing / 2;
-    std::uint32_t batch = 1;
+    std::vector<double> planned;
+    for (std::int64_t quanta : direct.unshot)
+        planned.push_back(static_cast<double>(quanta) * plan.watts_per_quantum);
+    result.leftover.emplace(run.scene, run.patches, planned, plan.threads);
+    const std::uint64_t emitting = plan.bundles - plan.closing;
+    const std::uint64_t halfway = emitting + plan.closing / 2;
+    // What the next batch's exits carry is set by the merge before it, in one walk over the
+    // patches: its size goes by the light that the merge before that has seen.
+    std::uint32_t batch = next_batch(plan, 0, 0, 1);
+    auto merge_for = [&](std::uint32_t next) {
+        const bool emits = result.bundles < emitting;
+        merge(state, run.patches, run.banks.banks(), run.banks.all_totals(),
+              {plan.cell, next, emits ? emission_quanta(plan, state) : 0}, plan.threads);
+    };
+    merge_for(batch);
     while (result.bundles < plan.bundles) {
         // Emission ends before the lines do; what still goes round tells what is left over.
         if (plan.closing > 1 && (result.bundles == emitting || result.bundles == halfway))
-            result.leftover->note(state);
-        if (result.bundles == emitting) {
-            std::fill(state.emission.begin(), state.emission.end(), 0);
+            result.leftover->note(run.banks);
+        if (result.bundles == emitting)
             pass.darken_sky();
-        }
-        batch = next_batch(plan, state, result.bundles, batch);
-        share_unshot(state, run.patches, plan.cell, batch, plan.threads);
         if (bundles) {
             pass.bundles(result.bundles, batch);
         } else {
@@ -200,8 +208,10 @@ PassResult global_pass(const Run& run, const DirectLight& direct, TransferState&
         }
         for (WorkerTotals& totals : run.banks.all_totals())
             result.counts += std::exchange(totals.counts, {});
-        merge(state, run.patches, run.banks.banks(), run.banks.all_totals(), plan.threads);
+        const double behind = lag(state, result.bundles);
         result.bundles += batch;
+        batch = next_batch(plan, behind, result.bundles, batch);
+        merge_for(batch);
         if (!run.listener.go_on(
                 bundles ? "bundles" : "lines",
                 static_cast<double>(result.bundles) / static_cast<double>(plan.bundles),
@@ -212,7 +222,7 @@ PassResult global_pass(const Run& run, const DirectLight& direct, TransferState&
         std::min(1.0, static_cast<double>(result.bundles) / static_cast<double>(emitting));
     result.whole = result.bundles == plan.bundles;
     if (result.whole && plan.closing > 1)
-        result.leftover->note(state);
+        result.leftover->note(run.banks);
     return result;
 }
 

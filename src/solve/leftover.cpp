@@ -1,53 +1,91 @@
 #include "solve/leftover.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "parallel.h"
 
 namespace parallux {
 
-Leftover::Leftover(const Scene& scene, const Patches& patches,
-                   const std::vector<std::int64_t>& planned)
-    : groups_(patches.count(), 0),
+Leftover::Leftover(const Scene& scene, const Patches& patches, std::vector<double> planned,
+                   unsigned threads)
+    : scene_(scene),
+      patches_(patches),
       count_(static_cast<std::uint32_t>(2 * scene.objects.size())),
-      planned_(patches.bands, 0) {
-    for (std::size_t k = 0; k < planned.size(); ++k)
-        planned_[k % patches.bands] += planned[k];
-    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-        const SurfaceGrid& grid = patches.grids[s];
-        std::uint32_t group = 2 * scene.surfaces[s].object;
-        for (std::uint32_t cell = 0; cell < grid.nu * grid.nv; ++cell) {
-            groups_[grid.front + cell] = group;
-            if (grid.back != none)
-                groups_[grid.back + cell] = group + 1;
+      planned_(std::move(planned)),
+      threads_(threads) {
+    // Patches are numbered surface by surface; later surfaces may share those of an earlier one.
+    std::uint32_t next = 0;
+    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s)
+        if (patches.grids[s].front == next) {
+            surfaces_.push_back(s);
+            next +=
+                patches.grids[s].nu * patches.grids[s].nv * (patches.grids[s].back == none ? 1 : 2);
         }
+}
+
+void Leftover::for_groups(
+    std::size_t begin, std::size_t end,
+    const std::function<void(std::size_t, std::size_t, std::uint32_t)>& visit) const {
+    auto after = std::upper_bound(
+        surfaces_.begin(), surfaces_.end(), begin,
+        [&](std::size_t patch, std::uint32_t s) { return patch < patches_.grids[s].front; });
+    for (auto own = after - 1; begin < end; ++own) {
+        const SurfaceGrid& grid = patches_.grids[*own];
+        const std::uint32_t group = 2 * scene_.surfaces[*own].object;
+        const std::size_t middle = grid.front + std::size_t(grid.nu) * grid.nv;
+        if (begin < middle)
+            visit(begin, std::min(middle, end), group);
+        begin = std::max(begin, middle);
+        if (grid.back == none || begin >= end)
+            continue;
+        const std::size_t last = std::min(middle + std::size_t(grid.nu) * grid.nv, end);
+        if (begin < last)
+            visit(begin, last, group + 1);
+        begin = std::max(begin, last);
     }
 }
 
-void Leftover::note(const TransferState& state) {
-    std::vector<double> sums(count_ * state.bands, 0);
-    for (std::size_t patch = 0; patch < groups_.size(); ++patch)
-        for (std::uint32_t band = 0; band < state.bands; ++band)
-            sums[groups_[patch] * state.bands + band] +=
-                static_cast<double>(state.received[patch * state.bands + band]);
-    notes_.push_back(std::move(sums));
+Leftover::Sums Leftover::sums(
+    const std::function<std::int64_t(std::size_t, std::uint32_t)>& value) const {
+    std::vector<Sums> by_worker(threads_, Sums(count_ * patches_.bands, 0));
+    parallel_for(threads_, patches_.count(), 1 << 14,
+                 [&](std::size_t begin, std::size_t end, unsigned worker) {
+                     for_groups(begin, end,
+                                [&](std::size_t first, std::size_t last, std::uint32_t group) {
+                                    std::int64_t* sum = &by_worker[worker][group * patches_.bands];
+                                    for (std::size_t patch = first; patch < last; ++patch)
+                                        for (std::uint32_t band = 0; band < patches_.bands; ++band)
+                                            sum[band] += value(patch, band);
+                                });
+                 });
+    for (std::size_t worker = 1; worker < by_worker.size(); ++worker)
+        for (std::size_t k = 0; k < by_worker[0].size(); ++k)
+            by_worker[0][k] += by_worker[worker][k];
+    return by_worker[0];
 }
 
-std::vector<double> Leftover::factors(const TransferState& state, const Patches& patches,
+void Leftover::note(const Banks& banks) {
+    notes_.push_back(
+        sums([&](std::size_t patch, std::uint32_t band) { return banks.received(patch, band); }));
+}
+
+std::vector<double> Leftover::factors(const TransferState& state, const Banks& banks,
                                       double done) const {
-    std::uint32_t bands = state.bands;
+    const std::uint32_t bands = state.bands;
     std::vector<double> factors(count_ * bands, 1);
-    std::vector<double> absorbed(count_ * bands, 0);
-    for (std::size_t patch = 0; patch < groups_.size(); ++patch)
-        for (std::uint32_t band = 0; band < bands; ++band) {
-            std::size_t k = patch * bands + band;
-            absorbed[groups_[patch] * bands + band] +=
-                (1 - static_cast<double>(patches.reflectance[k])) *
-                static_cast<double>(state.received[k]);
-        }
+    const Sums absorbed = sums([&](std::size_t patch, std::uint32_t band) {
+        const std::int64_t received = banks.received(patch, band);
+        return received -
+               std::llrint(static_cast<double>(patches_.reflectance[patch * bands + band]) *
+                           static_cast<double>(received));
+    });
     for (std::uint32_t band = 0; band < bands; ++band) {
         double sky = static_cast<double>(state.sky[band]);
         double sent = static_cast<double>(state.emitted[band]) + sky;
         double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
-        double wanted = static_cast<double>(planned_[band]) + sky / done;
+        double wanted = planned_[band] / state.watts_per_quantum + sky / done;
         if (!(sent > 0 && finished > 0 && wanted > 0))
             continue;
         // The share of each group's received energy that is still to come: after R1 and R2 in the
@@ -56,13 +94,14 @@ std::vector<double> Leftover::factors(const TransferState& state, const Patches&
         double would_finish = 0;
         for (std::uint32_t group = 0; notes_.size() == 3 && group < count_; ++group) {
             std::size_t k = group * bands + band;
-            double first = notes_[1][k] - notes_[0][k], second = notes_[2][k] - notes_[1][k];
+            const double first = static_cast<double>(notes_[1][k] - notes_[0][k]);
+            const double second = static_cast<double>(notes_[2][k] - notes_[1][k]);
             if (!(first > 0 && second > 0))
                 continue;
             double r = std::min(second / first, 0.9999);
-            to_come[group] = second * r / (1 - r) / notes_[2][k];
+            to_come[group] = second * r / (1 - r) / static_cast<double>(notes_[2][k]);
             // What escapes goes with what is absorbed.
-            would_finish += to_come[group] * absorbed[k] * finished /
+            would_finish += to_come[group] * static_cast<double>(absorbed[k]) * finished /
                             static_cast<double>(std::max<std::int64_t>(1, state.absorbed[band]));
         }
         double unshot = sent - finished;

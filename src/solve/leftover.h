@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "parallux/patches.h"
-#include "parallux/transfer.h"
+#include "transfer/banks.h"
 
 namespace parallux {
 
@@ -15,27 +16,38 @@ namespace parallux {
 /// then closes the balance.
 class Leftover {
 public:
-    /// `planned`: the emission quanta of the whole run, patch by patch.
-    Leftover(const Scene& scene, const Patches& patches, const std::vector<std::int64_t>& planned);
+    /// `planned`: watts emitted in the whole run, a band. Keeps references to scene and patches.
+    Leftover(const Scene& scene, const Patches& patches, std::vector<double> planned,
+             unsigned threads);
 
     /// Notes what every group has received so far: when the closing bundles begin, halfway, and at
     /// their end.
-    void note(const TransferState& state);
+    void note(const Banks& banks);
 
     /// By what each patch and band's received energy is to be multiplied. `done`: the share of the
     /// planned emission that was to be sent. Without three notes (a run stopped early or too short)
     /// one factor for all: planned / (absorbed + escaped).
-    std::vector<double> factors(const TransferState& state, const Patches& patches,
-                                double done) const;
+    std::vector<double> factors(const TransferState& state, const Banks& banks, double done) const;
 
-    /// Index into the factors of a patch: factors[group(patch) * bands + band].
-    std::uint32_t group(std::size_t patch) const { return groups_[patch]; }
+    /// Calls visit(first, last, group) for runs of the patches begin … end - 1 of one group each;
+    /// the group is an index into the factors: factors[group * bands + band].
+    void for_groups(
+        std::size_t begin, std::size_t end,
+        const std::function<void(std::size_t, std::size_t, std::uint32_t)>& visit) const;
 
 private:
-    std::vector<std::uint32_t> groups_;  // one a patch: 2 · object + side
-    std::uint32_t count_ = 0;
-    std::vector<std::int64_t> planned_;  // band totals
-    std::vector<std::vector<double>> notes_;
+    // Integers add up alike on any number of threads.
+    using Sums = std::vector<std::int64_t>;
+    // Sums over each group and band of value(patch, band).
+    Sums sums(const std::function<std::int64_t(std::size_t, std::uint32_t)>& value) const;
+
+    const Scene& scene_;
+    const Patches& patches_;
+    std::vector<std::uint32_t> surfaces_;  // those that patches were first made for, in their order
+    std::uint32_t count_ = 0;              // of groups: 2 · object + side
+    std::vector<double> planned_;
+    unsigned threads_;
+    std::vector<Sums> notes_;
 };
 
 }  // namespace parallux

@@ -1,7 +1,6 @@
 #include "solve/light_points.h"
 
 #include <cmath>
-#include <mutex>
 
 #include <glm/geometric.hpp>
 
@@ -59,13 +58,10 @@ void add_light_points(const Run& run, DirectLight& direct) {
     std::uint32_t bands = patches.bands;
     Bounds bounds = scene_bounds(scene);
     double far = 2 * glm::distance(bounds.low, bounds.high);
-    // Surfaces that share a patch all add to it: watts are gathered a cell at a time under a lock
-    // of integers, which add up the same in any order.
-    std::mutex mutex;
     parallel_for(
         run.plan.threads, scene.surfaces.size(), 16,
-        [&](std::size_t begin, std::size_t end, unsigned) {
-            std::vector<std::pair<std::size_t, std::int64_t>> found;
+        [&](std::size_t begin, std::size_t end, unsigned worker) {
+            WorkerTotals& totals = run.banks.totals(worker);
             for (std::size_t s = begin; s < end; ++s) {
                 const Surface& surface = scene.surfaces[s];
                 const SurfaceGrid& grid = patches.grids[s];
@@ -96,20 +92,19 @@ void add_light_points(const Run& run, DirectLight& direct) {
                                     watts[band] += flux * light.intensity[band];
                             }
                         }
-                        for (std::uint32_t band = 0; band < bands; ++band)
-                            if (watts[band] > 0)
-                                found.emplace_back(
-                                    (first + cell.index) * std::size_t(bands) + band,
-                                    std::llrint(watts[band] / run.plan.watts_per_quantum));
+                        for (std::uint32_t band = 0; band < bands; ++band) {
+                            std::int64_t quanta =
+                                std::llrint(watts[band] / run.plan.watts_per_quantum);
+                            run.banks.receive(
+                                worker, (first + cell.index) * std::size_t(bands) + band, quanta);
+                            totals.sky[band] += quanta;
+                        }
                     });
                 }
             }
-            std::lock_guard lock(mutex);
-            for (const auto& [k, quanta] : found) {
-                direct.received[k] += quanta;
-                direct.emitted[k % bands] += quanta;
-            }
         });
+    direct.arrived = true;
+    run.banks.take_totals(direct.emitted, direct.escaped);
 }
 
 }  // namespace parallux

@@ -13,7 +13,8 @@ namespace parallux {
 
 /// What a pass did, beside the energy that it moved in the state.
 struct PassResult {
-    std::optional<Leftover> leftover;  ///< what received energy is multiplied by; absent: by 1
+    std::optional<Leftover> leftover;  ///< what received energy is multiplied by; absent: by
+    double received = 1;               ///< this
     std::vector<double> ambient;  ///< irradiance that unshot energy stands for, a band; empty: 0
     LineCounts counts;
     std::uint64_t bundles = 0;  ///< done of those planned
@@ -22,11 +23,17 @@ struct PassResult {
     std::vector<std::string> warnings;
 };
 
-/// What each exit carries of a patch's own power over the whole run.
-void set_emission(const Run& run, const DirectLight& direct, TransferState& state);
+/// Quanta of an exit per W/m² of emission: its cell, of the whole run, in quanta of the state.
+double emission_quanta(const Plan& plan, const TransferState& state);
+
+/// So large a quantum, a power of two times the plan's, that what exits carry of the emission fits
+/// 32 bits with room for what they carry of the unshot energy: a surface that is as white as the
+/// whitest may be 1 / (1 - ρ) times as bright as all that emits, and now and then wait for an exit.
+double carried_quantum(const Run& run, const Emission& emission);
 
 /// What a line of this direction brings from the sky: its cell times π L, spread over the run as
 /// emission is.
-SkyQuanta sky_quanta(const Scene& scene, const Plan& plan, const glm::dvec3& direction);
+SkyQuanta sky_quanta(const Scene& scene, const Plan& plan, const TransferState& state,
+                     const glm::dvec3& direction);
 
 }  // namespace parallux

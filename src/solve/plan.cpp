@@ -9,7 +9,7 @@
 #include "parallel.h"
 #include "parallux/error.h"
 #include "reference/matrix.h"
-#include "transfer/delta_banks.h"
+#include "transfer/banks.h"
 
 namespace parallux {
 
@@ -49,14 +49,11 @@ double power_bound(const Scene& scene, const Patches& patches, const LineSphere&
 
 // A power of two, so that scaling the light or the scene by one changes no bit of the result. All
 // that ever flows, at most P / (1 - ρ), fits 2⁶⁰ quanta.
-double quantum(double power, const Patches& patches) {
-    float highest = 0;
-    for (float reflectance : patches.reflectance)
-        highest = std::max(highest, reflectance);
+double quantum(double power, double highest_reflectance) {
     if (power <= 0)
         return 1;
     int exponent = 0;
-    std::frexp(power / (1 - static_cast<double>(highest)), &exponent);
+    std::frexp(power / (1 - highest_reflectance), &exponent);
     return std::ldexp(1.0, exponent - 60);
 }
 
@@ -92,6 +89,16 @@ bool in_batches(const SolveSettings& settings) {
 std::uint64_t machine_memory() {
     return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
            static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
+}
+
+// A merge counts the exits of a batch in 32 bits.
+constexpr double most_lines_a_batch = 1 << 30;
+
+void limit_batch(double lines_a_bundle, Plan& plan) {
+    if (lines_a_bundle > most_lines_a_batch)
+        throw Error(Fault::usage, "more than 2^30 lines in a bundle; choose a larger spacing");
+    plan.batch =
+        std::min(plan.batch, static_cast<std::uint32_t>(most_lines_a_batch / lines_a_bundle));
 }
 
 void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& plan) {
@@ -135,6 +142,8 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
     if (settings.method == Method::bundles && settings.batch == 0)
         plan.batch =
             static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
+    if (plan.batch > 0)
+        limit_batch(disc / plan.cell, plan);
 }
 
 double mean_reflectance(const Patches& patches) {
@@ -192,13 +201,13 @@ std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
     // Patches: area, reflectance, emission. State: four arrays of quanta, the exits. Direct light:
     // two arrays. Result: radiosity, irradiance, crossings; it exists beside the state.
     std::uint64_t patch_bytes = 8 + bands * 8 + (bands * 4 * 8 + 8) + bands * 2 * 8 + bands * 8 + 8;
-    std::uint64_t banks = DeltaBanks::count(count, bands, threads, bank_limit(settings));
+    std::uint64_t banks = Banks::count(count, bands, threads, bank_limit(settings));
     // Surfaces as read, and the ray tracer's own copy of them with its tree.
     std::uint64_t surface_bytes = sizeof(Surface) + sizeof(SurfaceGrid) + 200;
     // A projection holds corners, and each surface in a tile or two.
     std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
     std::uint64_t matrix = settings.method == Method::matrix ? matrix_bytes(count) : 0;
-    return matrix + count * patch_bytes + banks * DeltaBanks::bytes_a_bank(count, bands) +
+    return matrix + count * patch_bytes + banks * Banks::bytes_a_bank(count, bands) +
            scene.surfaces.size() * (surface_bytes + projections * 8) +
            scene.positions.size() * (sizeof(glm::dvec3) + 12 + projections * 12) + (64u << 20);
 }
@@ -251,7 +260,10 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     plan.threads = thread_count(settings.threads);
     plan.bank_bytes = bank_limit(settings);
     plan.sphere = line_sphere(scene, settings.sphere_radius);
-    plan.watts_per_quantum = quantum(power_bound(scene, patches, plan.sphere), patches);
+    for (float reflectance : patches.reflectance)
+        plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
+    plan.watts_per_quantum =
+        quantum(power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
     plan_lines(patches, settings, plan);
     plan.first_shot = settings.first_shot;
     bool local = settings.method == Method::progressive || settings.method == Method::particles;

@@ -23,6 +23,7 @@ struct Plan {
     std::uint64_t closing = 0;       ///< of the bundles: the last ones, that carry no new emission
     LineSphere sphere;
     double watts_per_quantum = 1;
+    double highest_reflectance = 0;
     std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take
 };
 

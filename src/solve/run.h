@@ -5,7 +5,7 @@
 #include "lines/ray_scene.h"
 #include "parallux/solve.h"
 #include "solve/plan.h"
-#include "transfer/delta_banks.h"
+#include "transfer/banks.h"
 
 namespace parallux {
 
@@ -57,7 +57,7 @@ struct Run {
     const SolveSettings& settings;
     const Plan& plan;
     const RayScene* rays;  ///< null where the method needs none
-    DeltaBanks& banks;
+    Banks& banks;
     Listener& listener;
 };
 

@@ -146,7 +146,8 @@ std::vector<double> factors_of(const Run& run, const Source& source,
 
 }  // namespace
 
-void shoot_exact(const Run& run, const Emitters& emitters, DirectLight& direct) {
+void shoot_exact(const Run& run, const Emitters& emitters, std::vector<std::int64_t>& emitted,
+                 std::vector<std::int64_t>& escaped) {
     const std::uint32_t bands = emitters.bands;
     const std::vector<Emitter> receivers = all_cells(run.scene, run.patches);
     std::vector<Source> sources = sources_of(run, emitters);
@@ -161,15 +162,15 @@ void shoot_exact(const Run& run, const Emitters& emitters, DirectLight& direct) 
                 sum = 1;
             for (std::uint32_t band = 0; band < bands; ++band) {
                 std::int64_t up_to = std::llrint(sum * source.power[band]);
-                direct.received[receivers[k].patch * std::size_t(bands) + band] +=
-                    up_to - before[band];
+                run.banks.receive(0, receivers[k].patch * std::size_t(bands) + band,
+                                  up_to - before[band]);
                 before[band] = up_to;
             }
         }
         for (std::uint32_t band = 0; band < bands; ++band) {
             std::int64_t power = std::llrint(source.power[band]);
-            direct.emitted[band] += power;
-            direct.escaped[band] += power - before[band];
+            emitted[band] += power;
+            escaped[band] += power - before[band];
         }
     }
 }

@@ -45,7 +45,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     // Settle every number of the run.
     Plan plan = make_plan(scene, patches, settings);
     Listener listener(progress, settings.time_limit);
-    DeltaBanks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
+    Banks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
     Seconds seconds;
 
     // Shoot the light of the sources locally.

@@ -28,29 +28,30 @@ void add(Integer& target, Integer value) {
 // One worker's view of the energy during an exchange.
 template <std::uint32_t bands, bool shared>
 struct Exchange {
-    const std::int64_t* quanta;
-    Deltas& deltas;
+    const std::int32_t* quanta;
+    Bank& bank;
     WorkerTotals& totals;
 
     void leave(std::uint32_t patch) {
-        add<shared>(deltas.received[static_cast<std::size_t>(patch) * lanes(bands) + bands],
+        add<shared>(bank.received[static_cast<std::size_t>(patch) * lanes(bands) + bands],
                     std::int64_t(1));
     }
 
-    void receive(std::uint32_t patch, const std::int64_t* energy) {
-        std::int64_t* received = &deltas.received[static_cast<std::size_t>(patch) * lanes(bands)];
+    template <class Quanta>
+    void receive(std::uint32_t patch, const Quanta* energy) {
+        std::int64_t* received = &bank.received[static_cast<std::size_t>(patch) * lanes(bands)];
         for (std::uint32_t band = 0; band < bands; ++band)
-            add<shared>(received[band], energy[band]);
+            add<shared>(received[band], std::int64_t(energy[band]));
     }
 
-    const std::int64_t* carried(std::uint32_t patch) const {
+    const std::int32_t* carried(std::uint32_t patch) const {
         return quanta + static_cast<std::size_t>(patch) * lanes(bands);
     }
 
     // Energy that meets nothing, or an inert back, goes no further.
     void escape(std::uint32_t patch) {
         leave(patch);
-        const std::int64_t* energy = carried(patch);
+        const std::int32_t* energy = carried(patch);
         for (std::uint32_t band = 0; band < bands; ++band)
             totals.escaped[band] += energy[band];
     }
@@ -98,8 +99,8 @@ struct Exchange {
 
 template <std::uint32_t bands, bool shared>
 void exchange_all(const IntersectionLists& lists, const TransferState& state, bool both_ways,
-                  std::span<const SkyQuanta> sky, Deltas& deltas, WorkerTotals& totals) {
-    Exchange<bands, shared> exchange{state.quanta.data(), deltas, totals};
+                  std::span<const SkyQuanta> sky, Bank& bank, WorkerTotals& totals) {
+    Exchange<bands, shared> exchange{state.carried.data(), bank, totals};
     LineCounts& counts = totals.counts;
     counts.lines += lists.lines();
     counts.hits += lists.hits.size();
@@ -117,13 +118,13 @@ void exchange_all(const IntersectionLists& lists, const TransferState& state, bo
 }  // namespace
 
 void exchange(const IntersectionLists& lists, const TransferState& state, Direction direction,
-              std::span<const SkyQuanta> sky, Deltas& deltas, bool shared, WorkerTotals& totals) {
+              std::span<const SkyQuanta> sky, Bank& bank, bool shared, WorkerTotals& totals) {
     bool both_ways = direction == Direction::bidirectional;
     for_bands(state.bands, [&](auto bands) {
         if (shared)
-            exchange_all<bands(), true>(lists, state, both_ways, sky, deltas, totals);
+            exchange_all<bands(), true>(lists, state, both_ways, sky, bank, totals);
         else
-            exchange_all<bands(), false>(lists, state, both_ways, sky, deltas, totals);
+            exchange_all<bands(), false>(lists, state, both_ways, sky, bank, totals);
     });
 }
 

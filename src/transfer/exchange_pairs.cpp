@@ -16,48 +16,46 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <std::uint32_t count>
-HWY_INLINE void add(std::int64_t* HWY_RESTRICT target, const std::int64_t* HWY_RESTRICT source) {
+// Adds what an exit carries, and behind the bands the exit itself.
+template <std::uint32_t bands>
+HWY_INLINE void send(const std::int32_t* HWY_RESTRICT carried,
+                     std::int64_t* HWY_RESTRICT received) {
+    constexpr std::uint32_t count = lanes(bands);
     const hn::CappedTag<std::int64_t, count == 12 ? 4 : count> d;
-    for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d))
-        hn::Store(hn::Add(hn::Load(d, target + lane), hn::Load(d, source + lane)), d,
-                  target + lane);
+    const hn::Rebind<std::int32_t, decltype(d)> half;
+    for (std::size_t lane = 0; lane < count; lane += hn::Lanes(d)) {
+        auto sent = hn::PromoteTo(d, hn::Load(half, carried + lane));
+        if (lane <= bands && bands < lane + hn::Lanes(d))
+            sent = hn::IfThenElse(
+                hn::Eq(hn::Iota(d, 0), hn::Set(d, static_cast<std::int64_t>(bands - lane))),
+                hn::Set(d, 1), sent);
+        hn::Store(hn::Add(hn::Load(d, received + lane), sent), d, received + lane);
+    }
 }
 
 // Both of every pair receive what the other carries, and the exit that it is counted by.
-template <std::uint32_t count>
-void exchange_both(const PatchList& from, const PatchList& to, const std::int64_t* quanta,
+template <std::uint32_t bands>
+void exchange_both(const PatchList& from, const PatchList& to, const std::int32_t* carried,
                    std::int64_t* received) {
-    constexpr std::size_t ahead = 16;
+    constexpr std::size_t ahead = 16, count = lanes(bands);
     const std::uint32_t *i = from.ids.data(), *j = to.ids.data();
     for (std::size_t k = 0; k < from.count; ++k) {
-        const std::size_t a = static_cast<std::size_t>(i[k]) * count;
-        const std::size_t b = static_cast<std::size_t>(j[k]) * count;
+        const std::size_t a = i[k] * count, b = j[k] * count;
         if (k + ahead < from.count) {
-            const std::size_t next_a = static_cast<std::size_t>(i[k + ahead]) * count;
-            const std::size_t next_b = static_cast<std::size_t>(j[k + ahead]) * count;
-            hwy::Prefetch(quanta + next_a);
-            hwy::Prefetch(quanta + next_b);
+            const std::size_t next_a = i[k + ahead] * count, next_b = j[k + ahead] * count;
+            hwy::Prefetch(carried + next_a);
+            hwy::Prefetch(carried + next_b);
             hwy::Prefetch(received + next_a);
             hwy::Prefetch(received + next_b);
         }
-        add<count>(received + b, quanta + a);
-        add<count>(received + a, quanta + b);
+        send<bands>(carried + a, received + b);
+        send<bands>(carried + b, received + a);
     }
 }
 
-void exchange_lanes(std::uint32_t count, const PatchList& from, const PatchList& to,
-                    const std::int64_t* quanta, std::int64_t* received) {
-    switch (count) {
-        case 2:
-            return exchange_both<2>(from, to, quanta, received);
-        case 4:
-            return exchange_both<4>(from, to, quanta, received);
-        case 8:
-            return exchange_both<8>(from, to, quanta, received);
-        default:
-            return exchange_both<12>(from, to, quanta, received);
-    }
+void exchange_lanes(std::uint32_t band_count, const PatchList& from, const PatchList& to,
+                    const std::int32_t* carried, std::int64_t* received) {
+    for_bands(band_count, [&](auto bands) { exchange_both<bands()>(from, to, carried, received); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -81,7 +79,7 @@ void add_to(std::int64_t& target, std::int64_t value) {
 
 template <std::uint32_t bands, bool shared>
 struct PairExchange {
-    const std::int64_t* quanta;
+    const std::int32_t* quanta;
     std::int64_t* received;
     WorkerTotals& totals;
 
@@ -93,7 +91,7 @@ struct PairExchange {
         for (std::size_t k = 0; k < from.count; ++k) {
             const std::size_t i = at(from.ids[k]), j = at(to.ids[k]);
             for (std::uint32_t band = 0; band < bands; ++band)
-                add_to<shared>(received[j + band], quanta[i + band]);
+                add_to<shared>(received[j + band], std::int64_t(quanta[i + band]));
             add_to<shared>(received[i + bands], 1);
         }
     }
@@ -122,11 +120,11 @@ struct PairExchange {
 
 template <std::uint32_t bands, bool shared>
 void exchange_all(const TilePairs& pairs, const TransferState& state, bool both_ways,
-                  const SkyQuanta* sky, Deltas& deltas, WorkerTotals& totals) {
-    PairExchange<bands, shared> exchange{state.quanta.data(), deltas.received.data(), totals};
+                  const SkyQuanta* sky, Bank& bank, WorkerTotals& totals) {
+    PairExchange<bands, shared> exchange{state.carried.data(), bank.received.data(), totals};
     if (both_ways && !shared) {
         HWY_DYNAMIC_DISPATCH(exchange_lanes)
-        (lanes(bands), pairs.from, pairs.to, state.quanta.data(), deltas.received.data());
+        (bands, pairs.from, pairs.to, state.carried.data(), bank.received.data());
     } else {
         exchange.one_way(pairs.from, pairs.to);
         if (both_ways)
@@ -149,7 +147,7 @@ void exchange_all(const TilePairs& pairs, const TransferState& state, bool both_
 }  // namespace
 
 void exchange_pairs(const TilePairs& pairs, const TransferState& state, Direction direction,
-                    const SkyQuanta* sky, Deltas& deltas, bool shared, WorkerTotals& totals) {
+                    const SkyQuanta* sky, Bank& bank, bool shared, WorkerTotals& totals) {
     LineCounts& counts = totals.counts;
     counts.lines += pairs.lines;
     counts.nonempty += pairs.nonempty;
@@ -159,9 +157,9 @@ void exchange_pairs(const TilePairs& pairs, const TransferState& state, Directio
     bool both_ways = direction == Direction::bidirectional;
     for_bands(state.bands, [&](auto bands) {
         if (shared)
-            exchange_all<bands(), true>(pairs, state, both_ways, sky, deltas, totals);
+            exchange_all<bands(), true>(pairs, state, both_ways, sky, bank, totals);
         else
-            exchange_all<bands(), false>(pairs, state, both_ways, sky, deltas, totals);
+            exchange_all<bands(), false>(pairs, state, both_ways, sky, bank, totals);
     });
 }
 

@@ -13,29 +13,40 @@ namespace {
 template <std::uint32_t bands>
 struct InOrder {
     TransferState& state;
+    Bank& bank;
     const Patches& patches;
     LineCounts& counts;
 
+    std::int64_t* received(std::uint32_t patch) {
+        return &bank.received[static_cast<std::size_t>(patch) * lanes(bands)];
+    }
+
+    std::int64_t reflected(std::size_t k, std::int64_t quanta) const {
+        return std::llrint(static_cast<double>(patches.reflectance[k]) *
+                           static_cast<double>(quanta));
+    }
+
     // Takes all that a patch has to send: its unshot energy and the emission of one exit.
     void leave(std::uint32_t patch, std::int64_t* energy) {
-        ++state.exits[patch];
+        std::int64_t* own = received(patch);
+        ++own[bands];
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
-            energy[band] = state.unshot[k + band] + state.emission[k + band];
-            state.emitted[band] += state.emission[k + band];
-            state.unshot[k + band] = 0;
+            std::int64_t emission = std::llrint(state.emission.of_exit(patches, k + band));
+            std::int64_t all = reflected(k + band, own[band]);
+            energy[band] = all - state.sent[k + band] + emission;
+            state.emitted[band] += emission;
+            state.sent[k + band] = all;
         }
     }
 
     void arrive(std::uint32_t patch, const std::int64_t* energy) {
+        std::int64_t* own = received(patch);
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
-            std::int64_t reflected =
-                std::llrint(static_cast<double>(patches.reflectance[k + band]) *
-                            static_cast<double>(energy[band]));
-            state.received[k + band] += energy[band];
-            state.unshot[k + band] += reflected;
-            state.absorbed[band] += energy[band] - reflected;
+            std::int64_t before = reflected(k + band, own[band]);
+            own[band] += energy[band];
+            state.absorbed[band] += energy[band] - (reflected(k + band, own[band]) - before);
         }
     }
 
@@ -105,13 +116,14 @@ struct InOrder {
 
 }  // namespace
 
-void exchange_in_order(const IntersectionLists& lists, TransferState& state, const Patches& patches,
-                       Direction direction, std::span<const SkyQuanta> sky, LineCounts& counts) {
+void exchange_in_order(const IntersectionLists& lists, TransferState& state, Bank& bank,
+                       const Patches& patches, Direction direction, std::span<const SkyQuanta> sky,
+                       LineCounts& counts) {
     bool both_ways = direction == Direction::bidirectional;
     counts.lines += lists.lines();
     counts.hits += lists.hits.size();
     for_bands(state.bands, [&](auto bands) {
-        InOrder<bands()> in_order{state, patches, counts};
+        InOrder<bands()> in_order{state, bank, patches, counts};
         for (std::size_t line = 0; line < lists.lines(); ++line) {
             std::uint32_t begin = lists.start[line], count = lists.start[line + 1] - begin;
             if (count == 0)

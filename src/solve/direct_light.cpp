@@ -1,0 +1,87 @@
+#include "solve/direct_light.h"
+
+#include <array>
+#include <cmath>
+
+#include "parallel.h"
+
+namespace parallux {
+
+namespace {
+
+std::int64_t reflected(const Run& run, std::size_t k, std::int64_t quanta) {
+    return std::llrint(static_cast<double>(run.patches.reflectance[k]) *
+                       static_cast<double>(quanta));
+}
+
+// Band totals of one worker's patches.
+struct alignas(64) Totals {
+    std::array<std::int64_t, max_bands> absorbed{}, unshot{};
+};
+
+}  // namespace
+
+std::int64_t emitted_quanta(const Run& run, std::size_t k) {
+    return std::llrint(run.patches.area[k / run.patches.bands] * run.patches.emission[k] /
+                       run.plan.watts_per_quantum);
+}
+
+std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_t k) {
+    const std::uint32_t bands = run.patches.bands;
+    std::int64_t unshot =
+        reflected(run, k, run.banks.received(k / bands, static_cast<std::uint32_t>(k % bands)));
+    if (direct.own)
+        unshot += emitted_quanta(run, k);
+    return direct.shot.empty() ? unshot : unshot - direct.shot[k];
+}
+
+void settle(const Run& run, DirectLight& direct) {
+    const Patches& patches = run.patches;
+    const std::uint32_t bands = patches.bands;
+    if (direct.arrived)
+        direct.irradiance.resize(patches.reflectance.size());
+    if (!direct.shot.empty())
+        direct.exitance.resize(patches.reflectance.size());
+    std::vector<Totals> totals(run.plan.threads);
+    auto settle_patch = [&](std::size_t patch, Totals& sums) {
+        const double unit = run.plan.watts_per_quantum / patches.area[patch];
+        for (std::uint32_t band = 0; band < bands; ++band) {
+            const std::size_t k = patch * bands + band;
+            const std::int64_t received = run.banks.received(patch, band);
+            const std::int64_t unshot = unshot_quanta(run, direct, k);
+            sums.absorbed[band] += received - reflected(run, k, received);
+            sums.unshot[band] += unshot;
+            if (direct.arrived)
+                direct.irradiance[k] = static_cast<float>(unit * static_cast<double>(received));
+            if (!direct.shot.empty())
+                direct.exitance[k] = static_cast<float>(unit * static_cast<double>(unshot));
+        }
+        if (direct.arrived)
+            run.banks.clear(patch);
+    };
+    parallel_for(run.plan.threads, patches.count(), 4096,
+                 [&](std::size_t begin, std::size_t end, unsigned worker) {
+                     for (std::size_t patch = begin; patch < end; ++patch)
+                         settle_patch(patch, totals[worker]);
+                 });
+    for (const Totals& sums : totals)
+        for (std::uint32_t band = 0; band < bands; ++band) {
+            direct.absorbed[band] += sums.absorbed[band];
+            direct.unshot[band] += sums.unshot[band];
+        }
+    direct.shot = std::vector<std::int64_t>();
+}
+
+Emission emission_of(const Run& run, const DirectLight& direct) {
+    Emission emission;
+    if (!direct.exitance.empty()) {
+        emission.own = direct.exitance;
+        return emission;
+    }
+    if (direct.own)
+        emission.own = run.patches.emission;
+    emission.direct = direct.irradiance;
+    return emission;
+}
+
+}  // namespace parallux

@@ -1,0 +1,75 @@
+#include "transfer/banks.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "parallel.h"
+
+namespace parallux {
+
+unsigned Banks::count(std::size_t patches, std::uint32_t bands, unsigned workers,
+                      std::uint64_t allowed) {
+    std::uint64_t fit = allowed / std::max<std::uint64_t>(1, bytes_a_bank(patches, bands));
+    return static_cast<unsigned>(std::clamp<std::uint64_t>(fit, 1, workers));
+}
+
+Banks::Banks(std::size_t patches, std::uint32_t bands, unsigned workers, std::uint64_t allowed)
+    : patches_(patches),
+      bands_(bands),
+      banks_(count(patches, bands, workers, allowed)),
+      totals_(workers) {
+    for (Bank& bank : banks_)
+        bank.received.assign(patches * lanes(bands), 0);
+}
+
+void Banks::receive(unsigned worker, std::size_t k, std::int64_t quanta) {
+    std::int64_t& target = of(worker).received[k / bands_ * lanes(bands_) + k % bands_];
+    if (shared())
+        std::atomic_ref<std::int64_t>(target).fetch_add(quanta, std::memory_order_relaxed);
+    else
+        target += quanta;
+}
+
+std::int64_t Banks::received(std::size_t patch, std::uint32_t band) const {
+    std::int64_t sum = 0;
+    for (const Bank& bank : banks_)
+        sum += bank.received[patch * lanes(bands_) + band];
+    return sum;
+}
+
+void Banks::take_totals(std::vector<std::int64_t>& came_in, std::vector<std::int64_t>& escaped) {
+    for (WorkerTotals& worker : totals_)
+        for (std::uint32_t band = 0; band < bands_; ++band) {
+            came_in[band] += std::exchange(worker.sky[band], 0);
+            escaped[band] += std::exchange(worker.escaped[band], 0);
+        }
+}
+
+void Banks::scale(double factor) {
+    for (std::size_t patch = 0; patch < patches_; ++patch) {
+        std::int64_t scaled[max_bands];
+        for (std::uint32_t band = 0; band < bands_; ++band)
+            scaled[band] = std::llrint(static_cast<double>(received(patch, band)) * factor);
+        clear(patch);
+        std::copy_n(scaled, bands_, &banks_[0].received[patch * lanes(bands_)]);
+    }
+}
+
+void Banks::clear(std::size_t patch) {
+    for (Bank& bank : banks_)
+        std::fill_n(&bank.received[patch * lanes(bands_)], lanes(bands_), 0);
+}
+
+void Banks::join(unsigned threads) {
+    parallel_for(threads, banks_[0].received.size(), 1 << 14,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     for (std::size_t other = 1; other < banks_.size(); ++other)
+                         for (std::size_t k = begin; k < end; ++k)
+                             banks_[0].received[k] += banks_[other].received[k];
+                 });
+    banks_.resize(1);
+}
+
+}  // namespace parallux

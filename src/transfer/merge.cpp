@@ -1,0 +1,259 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "transfer/merge.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "parallel.h"
+#include "transfer/for_bands.h"
+#include "transfer/merge.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace parallux {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+
+template <std::size_t n, class D>
+hn::Vec<D> load_some(D d, const hn::TFromD<D>* values) {
+    return hn::LoadU(d, values);
+}
+
+template <std::size_t n, class D>
+void store_some(D d, hn::Vec<D> v, hn::TFromD<D>* values) {
+    hn::StoreU(v, d, values);
+}
+
+// Of whole numbers of 32 bits, in 64.
+template <class D>
+hn::Vec<D> product(D d, hn::Vec<D> a, hn::Vec<D> b) {
+    return hn::Set(d, hn::GetLane(a) * hn::GetLane(b));
+}
+
+#else
+
+// The first n of a vector's values; the others hold some value of the same array.
+template <std::size_t n, class D>
+HWY_INLINE hn::Vec<D> load_some(D d, const hn::TFromD<D>* values) {
+    const hn::Half<D> half;
+    if constexpr (n == 1)
+        return hn::Set(d, values[0]);
+    else if constexpr (n == 2 && hn::MaxLanes(D()) == 4)
+        return hn::Combine(d, hn::LoadU(half, values), hn::LoadU(half, values));
+    else if constexpr (n == 3)
+        return hn::Combine(d, hn::Reverse(half, hn::LoadU(half, values + 1)),
+                           hn::LoadU(half, values));
+    else
+        return hn::LoadU(d, values);
+}
+
+template <std::size_t n, class D>
+HWY_INLINE void store_some(D d, hn::Vec<D> v, hn::TFromD<D>* values) {
+    const hn::Half<D> half;
+    if constexpr (n == 1) {
+        values[0] = hn::GetLane(v);
+    } else if constexpr (n == 2 && hn::MaxLanes(D()) == 4) {
+        hn::StoreU(hn::LowerHalf(half, v), half, values);
+    } else if constexpr (n == 3) {
+        hn::StoreU(hn::LowerHalf(half, v), half, values);
+        values[2] = hn::ExtractLane(v, 2);
+    } else {
+        hn::StoreU(v, d, values);
+    }
+}
+
+// Of whole numbers of 32 bits, in 64.
+template <class D>
+HWY_INLINE hn::Vec<D> product(D d, hn::Vec<D> a, hn::Vec<D> b) {
+    const hn::Repartition<std::int32_t, D> both;
+    return hn::BitCast(d, hn::MulEven(hn::BitCast(both, a), hn::BitCast(both, b)));
+}
+
+#endif
+
+// Bands first … first + n - 1 of one patch after the other.
+template <std::uint32_t bands>
+struct Merger {
+    static constexpr hn::CappedTag<std::int64_t, bands == 1 ? 2 : 4> integers{};
+    using Integers = decltype(integers);
+    static constexpr hn::Rebind<double, Integers> doubles{};
+    static constexpr hn::Rebind<float, Integers> floats{};
+    static constexpr hn::Rebind<std::int32_t, Integers> narrow{};
+    static constexpr std::uint32_t step = hn::MaxLanes(Integers());
+    using VI = hn::Vec<Integers>;
+    using VD = hn::Vec<decltype(doubles)>;
+    using VN = hn::Vec<decltype(narrow)>;
+
+    const MergeJob& job;
+    MergeTotals& totals;
+    double area = 0, share = 0;
+
+    HWY_INLINE static void add(VI v, std::int64_t* target) {
+        hn::StoreU(hn::Add(hn::LoadU(integers, target), v), integers, target);
+    }
+
+    // In [0, 1): even over patches, over bands, and over the merges.
+    HWY_INLINE static VD dither(std::uint32_t start) {
+        const hn::RebindToUnsigned<decltype(narrow)> bits;
+        const auto even =
+            hn::Add(hn::Set(bits, start), hn::Mul(hn::Iota(bits, 0), hn::Set(bits, dither_band)));
+        return hn::Mul(hn::PromoteTo(doubles, hn::BitCast(narrow, hn::ShiftRight<1>(even))),
+                       hn::Set(doubles, 0x1p-31));
+    }
+
+    template <std::size_t n>
+    HWY_INLINE VD exitance(std::size_t k, VD reflectance) const {
+        VD sum = hn::Zero(doubles);
+        if (job.own)
+            sum = hn::PromoteTo(doubles, load_some<n>(floats, job.own + k));
+        if (job.direct)
+            sum = hn::Add(
+                sum,
+                hn::Mul(reflectance, hn::PromoteTo(doubles, load_some<n>(floats, job.direct + k))));
+        return sum;
+    }
+
+    template <std::size_t n>
+    HWY_INLINE void merge_bands(std::size_t patch, std::uint32_t first, std::int64_t exits) const {
+        const std::size_t k = patch * bands + first, lane = patch * lanes(bands) + first;
+        const auto start = static_cast<std::uint32_t>(patch) * dither_patch + first * dither_band;
+
+        // What was sent leaves unshot.
+        const VD reflectance = hn::PromoteTo(doubles, load_some<n>(floats, job.reflectance + k));
+        const VD own = exitance<n>(k, reflectance);
+        const VN carried = hn::Load(narrow, job.carried + lane);
+        const VN emission = hn::DemoteTo(
+            narrow, hn::Floor(hn::Add(hn::Mul(own, hn::Set(doubles, job.emission_before)),
+                                      dither(start + job.dither_before))));
+        const VI left = hn::Set(integers, exits);
+        const VI sent =
+            hn::Add(load_some<n>(integers, job.sent + k),
+                    product(integers, hn::PromoteTo(integers, hn::Sub(carried, emission)), left));
+        store_some<n>(integers, sent, job.sent + k);
+
+        // What came is absorbed or becomes unshot.
+        VI received = hn::Load(integers, job.banks[0] + lane);
+        for (std::size_t bank = 1; bank < job.bank_count; ++bank)
+            received = hn::Add(received, hn::Load(integers, job.banks[bank] + lane));
+        const VI reflected = hn::ConvertTo(
+            integers, hn::Round(hn::Mul(reflectance, hn::ConvertTo(doubles, received))));
+        add(hn::Sub(received, reflected), totals.absorbed + first);
+        add(product(integers, hn::PromoteTo(integers, emission), left), totals.emitted + first);
+
+        // Every exit takes its share.
+        const VD most = hn::Set(doubles, most_carried);
+        const VD unshot =
+            hn::Mul(hn::ConvertTo(doubles, hn::Sub(reflected, sent)), hn::Set(doubles, share));
+        const VD next =
+            hn::Floor(hn::Add(hn::Add(hn::Mul(own, hn::Set(doubles, job.emission_after)), unshot),
+                              dither(start + job.dither_after)));
+        hn::Store(hn::DemoteTo(narrow, hn::Min(hn::Max(next, hn::Neg(most)), most)), narrow,
+                  job.carried + lane);
+    }
+
+    template <std::uint32_t first>
+    HWY_INLINE void merge_from(std::size_t patch, std::int64_t exits) const {
+        constexpr std::uint32_t n = std::min(step, bands - first);
+        merge_bands<n>(patch, first, exits);
+        if constexpr (first + n < bands)
+            merge_from<first + n>(patch, exits);
+    }
+
+    HWY_INLINE void merge_patch(std::size_t patch) {
+        // E[exits a bundle] · cell / area = |cos θ|: every direction gets its due.
+        if (job.area[patch] != area) {
+            area = job.area[patch];
+            share = std::min(1.0, job.cell / area) / job.batch;
+        }
+        const std::size_t lane = patch * lanes(bands) + bands;
+        std::uint32_t exits = 0;
+        for (std::size_t bank = 0; bank < job.bank_count; ++bank)
+            exits += static_cast<std::uint32_t>(job.banks[bank][lane]);
+        const std::uint32_t seen = static_cast<std::uint32_t>(job.carried[lane]);
+        merge_from<0>(patch, exits - seen);
+        job.carried[lane] = static_cast<std::int32_t>(exits);
+    }
+};
+
+void merge_patches(const MergeJob& job, std::size_t begin, std::size_t end, MergeTotals& totals) {
+    for_bands(job.bands, [&](auto bands) {
+        MergeTotals sums;
+        Merger<bands()> merger{job, sums};
+        for (std::size_t patch = begin; patch < end; ++patch)
+            merger.merge_patch(patch);
+        for (std::uint32_t band = 0; band < bands(); ++band) {
+            totals.absorbed[band] += sums.absorbed[band];
+            totals.emitted[band] += sums.emitted[band];
+        }
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace parallux
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace parallux {
+
+namespace {
+
+HWY_EXPORT(merge_patches);
+
+const float* or_null(std::span<const float> values) {
+    return values.empty() ? nullptr : values.data();
+}
+
+}  // namespace
+
+void merge(TransferState& state, const Patches& patches, const std::vector<Bank>& banks,
+           std::vector<WorkerTotals>& totals, const Share& next, unsigned threads) {
+    state.carried.resize(patches.count() * lanes(state.bands), 0);
+    std::vector<const std::int64_t*> received;
+    for (const Bank& bank : banks)
+        received.push_back(bank.received.data());
+    MergeJob job;
+    job.bands = state.bands;
+    job.area = patches.area.data();
+    job.reflectance = patches.reflectance.data();
+    job.own = or_null(state.emission.own);
+    job.direct = or_null(state.emission.direct);
+    job.banks = received.data();
+    job.bank_count = received.size();
+    job.sent = state.sent.data();
+    job.carried = state.carried.data();
+    job.cell = next.cell;
+    job.batch = next.batch;
+    job.emission_before = state.emission.quanta;
+    job.emission_after = next.emission;
+    job.dither_before = state.merges * dither_merge;
+    job.dither_after = (state.merges + 1) * dither_merge;
+
+    constexpr std::size_t patches_a_piece = 1024;
+    std::vector<MergeTotals> sums(thread_count(threads));
+    parallel_for(threads, patches.count(), patches_a_piece,
+                 [&](std::size_t begin, std::size_t end, unsigned worker) {
+                     HWY_DYNAMIC_DISPATCH(merge_patches)(job, begin, end, sums[worker]);
+                 });
+
+    ++state.merges;
+    state.emission.quanta = next.emission;
+    for (std::uint32_t band = 0; band < state.bands; ++band) {
+        state.absorbed[band] = 0;
+        for (const MergeTotals& sum : sums) {
+            state.absorbed[band] += sum.absorbed[band];
+            state.emitted[band] += sum.emitted[band];
+        }
+        for (WorkerTotals& worker : totals) {
+            state.escaped[band] += std::exchange(worker.escaped[band], 0);
+            state.sky[band] += std::exchange(worker.sky[band], 0);
+        }
+    }
+}
+
+}  // namespace parallux
+#endif
