@@ -23,30 +23,61 @@ unsigned thread_count(unsigned requested) {
 
 namespace {
 
-// One piece after another until none is left, by one worker.
-struct Pieces {
-    std::size_t count, grain;
-    const std::function<void(std::size_t, std::size_t, unsigned)>& body;
-    std::atomic<std::size_t> next{0};
-    std::mutex mutex;
-    std::exception_ptr failure;
+// A loop's pieces, dealt to the workers in as many runs: each takes those of its own run first, so
+// that from loop to loop it meets what its caches hold, then helps the others.
+class Pieces {
+public:
+    using Body = std::function<void(std::size_t, std::size_t, unsigned)>;
+
+    Pieces(std::size_t count, std::size_t grain, unsigned workers, const Body& body)
+        : count_(count), grain_(grain), body_(body), runs_(workers) {
+        const std::size_t pieces = (count - 1) / grain + 1;
+        for (unsigned run = 0; run < workers; ++run) {
+            runs_[run].next = pieces * run / workers;
+            runs_[run].end = pieces * (run + 1) / workers;
+        }
+    }
 
     void work(unsigned worker) {
-        for (;;) {
-            std::size_t begin = next.fetch_add(grain, std::memory_order_relaxed);
-            if (begin >= count)
-                return;
-            try {
-                body(begin, std::min(begin + grain, count), worker);
-            } catch (...) {
-                std::lock_guard lock(mutex);
-                if (!failure)
-                    failure = std::current_exception();
-                next.store(count, std::memory_order_relaxed);
-                return;
+        for (std::size_t k = 0; k < runs_.size(); ++k) {
+            Run& run = runs_[(worker + k) % runs_.size()];
+            for (;;) {
+                std::size_t piece = run.next.fetch_add(1, std::memory_order_relaxed);
+                if (piece >= run.end || failed_.load(std::memory_order_relaxed))
+                    break;
+                call(piece, worker);
             }
         }
     }
+
+    void rethrow() const {
+        if (failure_)
+            std::rethrow_exception(failure_);
+    }
+
+private:
+    struct alignas(64) Run {
+        std::atomic<std::size_t> next{0};
+        std::size_t end = 0;
+    };
+
+    void call(std::size_t piece, unsigned worker) {
+        try {
+            body_(piece * grain_, std::min((piece + 1) * grain_, count_), worker);
+        } catch (...) {
+            std::lock_guard lock(mutex_);
+            if (!failure_)
+                failure_ = std::current_exception();
+            failed_.store(true, std::memory_order_relaxed);
+        }
+    }
+
+    std::size_t count_, grain_;
+    const Body& body_;
+    std::vector<Run> runs_;
+    std::atomic<bool> failed_{false};
+    std::mutex mutex_;
+    std::exception_ptr failure_;
 };
 
 // The processors that the program may use.
@@ -230,10 +261,9 @@ void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
             static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), wanted)));
         crew = hired.get();
     }
-    Pieces pieces{count, grain, body, {}, {}, {}};
+    Pieces pieces(count, grain, crew->threads(), body);
     crew->run(pieces);
-    if (pieces.failure)
-        std::rethrow_exception(pieces.failure);
+    pieces.rethrow();
 }
 
 }  // namespace parallux
