@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "parallux/scene.h"
@@ -74,6 +75,42 @@ inline void add_turned_cube(Scene& scene, glm::dvec3 centre, double side, std::u
                 return centre + p.x * x + p.y * y + p.z * z;
             },
             false, n, {m, m, m, m, m, m});
+}
+
+/// A ball of triangles, `rings` from pole to pole and twice as many round, outward.
+inline void add_ball(Scene& scene, glm::dvec3 centre, double radius, std::uint32_t rings,
+                     const Material& material) {
+    const std::uint32_t first = static_cast<std::uint32_t>(scene.positions.size());
+    const std::uint32_t round = 2 * rings;
+    Surface surface;
+    surface.material = static_cast<std::uint32_t>(scene.materials.size());
+    surface.object = static_cast<std::uint32_t>(scene.objects.size());
+    scene.materials.push_back(material);
+    scene.objects.push_back("ball");
+    for (std::uint32_t ring = 1; ring < rings; ++ring)
+        for (std::uint32_t k = 0; k < round; ++k) {
+            const double a = pi * ring / rings, b = 2 * pi * k / round;
+            scene.positions.push_back(centre + radius * glm::dvec3(std::sin(a) * std::cos(b),
+                                                                   std::sin(a) * std::sin(b),
+                                                                   std::cos(a)));
+        }
+    const std::uint32_t north = static_cast<std::uint32_t>(scene.positions.size());
+    scene.positions.push_back(centre + glm::dvec3(0, 0, radius));
+    scene.positions.push_back(centre - glm::dvec3(0, 0, radius));
+    auto at = [&](std::uint32_t ring, std::uint32_t k) {
+        return ring == 0       ? north
+               : ring == rings ? north + 1
+                               : first + (ring - 1) * round + k % round;
+    };
+    for (std::uint32_t ring = 0; ring < rings; ++ring)
+        for (std::uint32_t k = 0; k < round; ++k) {
+            surface.corner = {at(ring, k), at(ring + 1, k), at(ring + 1, k + 1), none};
+            if (ring + 1 < rings)
+                scene.surfaces.push_back(surface);
+            surface.corner = {at(ring, k), at(ring + 1, k + 1), at(ring, k + 1), none};
+            if (ring > 0)
+                scene.surfaces.push_back(surface);
+        }
 }
 
 /// An L-shaped room of height 1: the unit squares at (0, 0), (1, 0) and (0, 1), with floors and
