@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "cli/values.h"
+#include "vectors.h"
 
 namespace parallux {
 
@@ -190,6 +191,15 @@ void add_run(CLI::App& app, SolveOptions& o) {
         o.solve.threads = static_cast<unsigned>(parse_count("--threads", v, 0, 4096));
         o.picture.threads = o.solve.threads;
     })->group(group);
+    add(app, "--vectors", "SET",
+        "Instruction set: auto, plain, sse4, avx2 or avx512; part of the speed alone [auto]",
+        [&](auto& v) {
+            if (!use_vectors(v.c_str()))
+                refuse("--vectors", v,
+                       "expected auto, plain, sse4, avx2 or avx512, as far as this "
+                       "machine has them");
+        })
+        ->group(group);
     add(app, "--max-memory", "M", "Refuse to start a solve above this: 500M, 4GiB [no limit]",
         [&](auto& v) { o.solve.max_memory = parse_bytes("--max-memory", v); })
         ->group(group);

@@ -6,6 +6,7 @@
 
 #include "output/output_file.h"
 #include "parallux/tables.h"
+#include "vectors.h"
 
 namespace parallux {
 
@@ -21,19 +22,6 @@ std::uint64_t peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
-}
-
-/// The best instruction set of the machine in use.
-const char* instruction_set() {
-#ifdef __x86_64__
-    if (__builtin_cpu_supports("avx512f"))
-        return "avx512";
-    if (__builtin_cpu_supports("avx2"))
-        return "avx2";
-    if (__builtin_cpu_supports("sse4.2"))
-        return "sse4.2";
-#endif
-    return "baseline";
 }
 
 /// Watts per band; nothing at all is the integer 0, so that a closed balance reads as one.
@@ -117,7 +105,7 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["solution_hash"] = hash_text(solution.hash);
     stats["partial"] = solution.partial;
     stats["version"] = PARALLUX_VERSION;
-    stats["isa"] = instruction_set();
+    stats["isa"] = vectors_in_use();
     stats["warnings"] = all_warnings(scene, solution);
 
     OutputFile output(file);
