@@ -102,7 +102,7 @@ void EmbreeEngine::choose(const std::vector<int>& columns, const std::function<M
                     choice_.occluded = occluded;
                     choice_.columns = width;
                     double rate = 0;
-                    for (int again = 0; again < (whole_ ? 1 : 3); ++again)
+                    for (int again = 0; again < (whole_ ? 1 : 5); ++again)
                         rate = std::max(rate, trial().lines_per_second());
                     if (rate > rate_) {
                         rate_ = rate;

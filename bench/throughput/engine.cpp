@@ -10,13 +10,20 @@ Measured BundleEngine::run(unsigned threads) {
     return {solution.seconds.global, solution.counts, std::move(solution.crossings)};
 }
 
-std::vector<std::unique_ptr<Engine>> make_engines(const Case& of, bool whole) {
-    std::vector<std::unique_ptr<Engine>> engines;
-    engines.push_back(std::make_unique<BundleEngine>(of));
-    engines.push_back(std::make_unique<EmbreeLines>(of, Parts::patches, whole));
-    engines.push_back(std::make_unique<EmbreeLines>(of, Parts::parents, whole));
-    engines.push_back(std::make_unique<EmbreePackets>(of, whole));
-    return engines;
+const std::vector<std::string>& engine_names() {
+    static const std::vector<std::string> names{"bundle", "embree-lines", "embree-lines-parents",
+                                                "embree-packets"};
+    return names;
+}
+
+std::unique_ptr<Engine> make_engine(const std::string& name, const Case& of, bool whole) {
+    if (name == "embree-lines")
+        return std::make_unique<EmbreeLines>(of, Parts::patches, whole);
+    if (name == "embree-lines-parents")
+        return std::make_unique<EmbreeLines>(of, Parts::parents, whole);
+    if (name == "embree-packets")
+        return std::make_unique<EmbreePackets>(of, whole);
+    return std::make_unique<BundleEngine>(of);
 }
 
 }  // namespace parallux::throughput

@@ -40,8 +40,11 @@ private:
     const Case& case_;
 };
 
-/// The four engines of a case, bundles first. References keep a reference to the case. `whole`: let
-/// them do all of its lines and not only as many as take a good third of a second.
-std::vector<std::unique_ptr<Engine>> make_engines(const Case& of, bool whole);
+/// The names of the engines, bundles first.
+const std::vector<std::string>& engine_names();
+
+/// One engine by its name. References keep a reference to the case. `whole`: let them do all of its
+/// lines and not only as many as take a good third of a second.
+std::unique_ptr<Engine> make_engine(const std::string& name, const Case& of, bool whole);
 
 }  // namespace parallux::throughput

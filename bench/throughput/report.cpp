@@ -85,11 +85,17 @@ void print_rows(const std::vector<Row>& rows) {
         if (row.engine != "bundle")
             continue;
         const Ratios ratios = ratios_of(rows, row);
-        std::printf("%u thread%s: bundle / (a) %.1f, bundle / best of (a), (b), (c) %.1f (%s)\n",
-                    row.threads, row.threads > 1 ? "s" : "", ratios.to_lines, ratios.to_best,
-                    ratios.best.c_str());
+        if (ratios.to_lines > 0)
+            std::printf(
+                "%u thread%s: bundle / (a) %.1f, bundle / best of (a), (b), (c) %.1f (%s)\n",
+                row.threads, row.threads > 1 ? "s" : "", ratios.to_lines, ratios.to_best,
+                ratios.best.c_str());
         const Scaling scaling = scaling_of(rows, row);
-        if (scaling.gain > 0)
+        if (scaling.gain > 0 && scaling.gain <= 1)
+            std::printf(
+                "%u threads / 1: %.2f; no second core was free, or the work does not divide\n",
+                row.threads, scaling.gain);
+        else if (scaling.gain > 0)
             std::printf(
                 "%u threads / 1: %.2f, so %.1f %% serial; on 64 cores this foretells %.0f\n",
                 row.threads, scaling.gain, 100 * scaling.serial, scaling.gain_of(64));
@@ -118,8 +124,8 @@ void write_json(const std::string& file, const std::vector<Row>& rows) {
         if (row.engine == "bundle") {
             const Ratios ratios = ratios_of(rows, row);
             const Scaling scaling = scaling_of(rows, row);
-            entry["ratio_to_embree_lines"] = ratios.to_lines;
-            entry["ratio_to_best"] = ratios.to_best;
+            entry["ratio_to_embree_lines"] = ratios.to_lines > 0 ? Json(ratios.to_lines) : Json();
+            entry["ratio_to_best"] = ratios.to_best > 0 ? Json(ratios.to_best) : Json();
             entry["best"] = ratios.best;
             entry["gain_of_threads"] = scaling.gain > 0 ? Json(scaling.gain) : Json();
             entry["serial_share"] = scaling.gain > 0 ? Json(scaling.serial) : Json();

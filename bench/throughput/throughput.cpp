@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ using namespace parallux::throughput;
 namespace {
 
 struct Options {
-    std::vector<std::string> scenes;
+    std::vector<std::string> scenes, engines = engine_names();
     std::vector<unsigned> threads{1, 2};
     CaseSettings settings;
     int repetitions = 5;
@@ -74,7 +75,9 @@ int run(const Options& options) {
         const Case of = make_case(name, options.settings);
         if (options.settings.tiny)
             good &= tiny_agrees(of);
-        const auto engines = make_engines(of, options.settings.tiny);
+        std::vector<std::unique_ptr<Engine>> engines;
+        for (const std::string& engine : options.engines)
+            engines.push_back(make_engine(engine, of, options.settings.tiny));
         std::vector<Row> own = run_rounds(of, engines, options.threads, options.repetitions);
         for (Row& row : own)
             if (row.engine == "bundle" && row.threads == most)
@@ -95,6 +98,10 @@ int main(int argc, char** argv) {
     CaseSettings& settings = options.settings;
     app.add_option("--scene", options.scenes,
                    "paper-12150, paper-1200000, room-300000, kitchen or a file [all four]");
+    app.add_option("--engines", options.engines, "Which ones")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->check(CLI::IsMember(engine_names()));
     app.add_option("--repetitions", options.repetitions, "Of every engine, taken in turn")
         ->capture_default_str()
         ->check(CLI::Range(1, 1000));
