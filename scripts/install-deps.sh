@@ -7,7 +7,7 @@ packages=(
     g++ cmake ninja-build
     libtbb-dev libembree-dev libopenimageio-dev openimageio-tools libglm-dev
     nlohmann-json3-dev libcli11-dev libeigen3-dev libhwy-dev
-    doctest-dev gnuplot-nox
+    doctest-dev libbenchmark-dev gnuplot-nox
     clang-format
 )
 
