@@ -22,6 +22,10 @@ struct alignas(64) EmbreePackets::Lanes {
 };
 
 // A bundle as Embree sees it: the line of column 0 and row 0 of its rectangle begins at `origin`.
+namespace {
+constexpr std::int32_t tile_side = 64;  // lines that one worker traces at a time
+}
+
 struct EmbreePackets::View {
     glm::vec3 origin, x, y, direction;
     float length;

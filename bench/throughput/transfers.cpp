@@ -17,14 +17,19 @@ Transfers::Transfers(const Case& of, unsigned threads)
     const ProgressCallback nobody;
     Listener listener(nobody, 0);
     const Run run{of.scene, of.patches, settings_, plan_, nullptr, banks_, listener};
-    set_emission(run, first_shot(run), state_);
+    direct_ = first_shot(run);
+    settle(run, direct_);
+    state_.emission = emission_of(run, direct_);
+    state_.watts_per_quantum = carried_quantum(run, state_.emission);
+    merge_batch();
+}
+
+void Transfers::merge_batch() {
+    merge(state_, case_.patches, banks_.banks(), banks_.all_totals(),
+          {plan_.cell, settings_.batch, emission_quanta(plan_, state_)}, plan_.threads);
 }
 
 void Transfers::batch(const std::function<void()>& trace) {
-    const Watch share_watch;
-    share_unshot(state_, case_.patches, plan_.cell, settings_.batch, plan_.threads);
-    double once = share_watch.seconds();
-
     const Watch trace_watch;
     trace();
     measured_.seconds += trace_watch.seconds();
@@ -34,15 +39,15 @@ void Transfers::batch(const std::function<void()>& trace) {
         counts += std::exchange(totals.counts, {});
     measured_.counts += counts;
     const Watch merge_watch;
-    merge(state_, case_.patches, banks_.banks(), banks_.all_totals(), plan_.threads);
-    once += merge_watch.seconds();
-    measured_.seconds +=
-        once * static_cast<double>(counts.lines) / (settings_.batch * case_.lines_per_bundle);
+    merge_batch();
+    measured_.seconds += merge_watch.seconds() * static_cast<double>(counts.lines) /
+                         (settings_.batch * case_.lines_per_bundle);
 }
 
 Measured Transfers::result() const {
     Measured result = measured_;
-    result.exits = state_.exits;
+    for (std::size_t patch = 0; patch < case_.patches.count(); ++patch)
+        result.exits.push_back(static_cast<std::uint64_t>(banks_.exits(patch)));
     return result;
 }
 

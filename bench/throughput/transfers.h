@@ -2,9 +2,10 @@
 
 #include <functional>
 
+#include "solve/direct_light.h"
 #include "solve/plan.h"
 #include "throughput/engine.h"
-#include "transfer/delta_banks.h"
+#include "transfer/banks.h"
 
 namespace parallux::throughput {
 
@@ -14,9 +15,9 @@ class Transfers {
 public:
     Transfers(const Case& of, unsigned threads);
 
-    /// One batch: shares out what is unshot, lets `trace` call follow() from its workers, merges.
-    /// Of sharing and merging, which are done once a batch however few lines it has, only the part
-    /// that falls to these lines in a whole batch of the bundle engine is charged.
+    /// One batch: lets `trace` call follow() from its workers, then merges. Of merging, which is
+    /// done once a batch however few lines it has, only the part that falls to these lines in a
+    /// whole batch of the bundle engine is charged.
     void batch(const std::function<void()>& trace);
 
     void follow(const IntersectionLists& lists, unsigned worker) {
@@ -28,11 +29,14 @@ public:
     const Plan& plan() const { return plan_; }
 
 private:
+    void merge_batch();
+
     const Case& case_;
     SolveSettings settings_;
     Plan plan_;
-    DeltaBanks banks_;
+    Banks banks_;
     TransferState state_;
+    DirectLight direct_;
     Measured measured_;
 };
 
