@@ -28,6 +28,13 @@ struct DepthPlane {
     float at = 0, per_column = 0, per_row = 0;
 };
 
+/// Hits on their way to the layers.
+struct HitBuffer {
+    static constexpr std::size_t size = 2048;
+    std::int32_t line[size + 16], depth[size + 16], id[size + 16];
+    std::size_t count = 0;
+};
+
 /// The hits of a tile's lines in layers: the n-th surface found on a line lies in layer n, in the
 /// order of the surfaces, until pair_layers() sorts them. No memory is taken for a line.
 class HitLayers {
@@ -44,8 +51,20 @@ public:
         std::memset(unsure_.data(), 0, unsure_.size());
         beyond_.clear();
         beyond_sorted_ = false;
-        sides_.resize(views);
-        moved_.resize(views);
+        sides_.resize(views + 16);
+        moved_.resize(views + 16);
+        buffer_.count = 0;
+    }
+
+    HitBuffer& buffer() { return buffer_; }
+    /// Puts the buffered hits into layers when they are more than `most`.
+    void flush(std::size_t most) {
+        if (buffer_.count <= most)
+            return;
+        for (std::size_t k = 0; k < buffer_.count; ++k)
+            add(buffer_.line[k], HitKey(static_cast<std::uint32_t>(buffer_.depth[k])) << 32 |
+                                     static_cast<std::uint32_t>(buffer_.id[k]));
+        buffer_.count = 0;
     }
 
     void add(std::int32_t line, HitKey key) {
@@ -67,7 +86,10 @@ public:
     std::uint64_t* keys(std::uint32_t layer) { return &keys_[layer * lines]; }
     std::uint8_t* counts() { return count_.data(); }
     std::uint8_t* unsure() { return unsure_.data(); }  ///< ≠ 0: depths do not tell the order
+    /// As set_view() has them; both have room for a vector beyond the last view.
+    std::uint64_t* sides() { return sides_.data(); }
     const std::uint64_t* sides() const { return sides_.data(); }
+    float* moved() { return moved_.data(); }
     float moved(std::size_t view) const { return moved_[view]; }
 
     /// Hits of all lines; of lines with more than 255, those.
@@ -89,6 +111,7 @@ private:
     Array<std::uint8_t> count_, unsure_;
     std::vector<std::uint64_t> sides_;
     std::vector<float> moved_;
+    HitBuffer buffer_;
     bool beyond_sorted_ = false;
     std::vector<Beyond> beyond_;  // hits of lines that meet more surfaces than there are layers
 };
