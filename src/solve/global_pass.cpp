@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "parallel.h"
+#include "random.h"
+#include "transfer/partition.h"
 
 namespace parallux {
 
@@ -31,7 +34,10 @@ public:
           banks_(run.banks),
           buffers_(run.plan.threads),
           lit_(run.scene.sky.kind != Sky::Kind::dark),
-          projector_(run.scene, run.patches) {}
+          projector_(run.scene, run.patches) {
+        if (banks_.shared())
+            partition_.emplace(patches_.count(), patches_.bands, plan_.threads);
+    }
 
     // Projects the bundles side by side, then follows the tiles of all of them.
     void bundles(std::uint64_t first, std::uint32_t count) {
@@ -46,15 +52,24 @@ public:
         std::vector<std::size_t> tiles_before(count + 1, 0);
         for (std::uint32_t k = 0; k < count; ++k)
             tiles_before[k + 1] = tiles_before[k] + projections_[k].tiles();
-        parallel_for(plan_.threads, tiles_before.back(), 4,
-                     [&](std::size_t begin, std::size_t end, unsigned worker) {
-                         for (std::size_t tile = begin; tile < end; ++tile) {
-                             std::size_t k = static_cast<std::size_t>(
-                                 std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
-                                 tiles_before.begin() - 1);
-                             follow_tile(projections_[k], tile - tiles_before[k], worker);
-                         }
-                     });
+        for (std::size_t first_tile = 0, end_tile = 0; first_tile < tiles_before.back();
+             first_tile = end_tile) {
+            end_tile = partition_
+                           ? std::min(first_tile + partition_->tiles_a_round(), tiles_before.back())
+                           : tiles_before.back();
+            parallel_for(
+                plan_.threads, end_tile - first_tile, partition_ ? 1 : 4,
+                [&](std::size_t begin, std::size_t end, unsigned worker) {
+                    for (std::size_t tile = first_tile + begin; tile < first_tile + end; ++tile) {
+                        std::size_t k = static_cast<std::size_t>(
+                            std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
+                            tiles_before.begin() - 1);
+                        follow_tile(projections_[k], tile - tiles_before[k], worker);
+                    }
+                });
+            if (partition_)
+                partition_->apply(state_, banks_.of(0), plan_.threads);
+        }
     }
 
     // Traces independent lines first … first + count - 1 and follows them.
@@ -81,8 +96,12 @@ private:
         SkyQuanta sky;
         if (lit_)
             sky = sky_quanta(scene_, plan_, state_, projection.bundle.direction);
-        exchange_pairs(buffers.pairs, state_, settings_.direction, lit_ ? &sky : nullptr,
-                       banks_.of(worker), banks_.shared(), banks_.totals(worker));
+        if (partition_)
+            partition_->put(worker, buffers.pairs, state_, settings_.direction,
+                            lit_ ? &sky : nullptr, banks_.totals(worker));
+        else
+            exchange_pairs(buffers.pairs, state_, settings_.direction, lit_ ? &sky : nullptr,
+                           banks_.of(worker), banks_.totals(worker));
     }
 
     const Scene& scene_;
@@ -95,6 +114,7 @@ private:
     std::vector<Buffers> buffers_;
     bool lit_;
     Projector projector_;
+    std::optional<Partition> partition_;  // where the workers share a bank
     std::vector<Projection> projections_;
 };
 
@@ -133,6 +153,7 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     settle(run, direct);
     state.emission = emission_of(run, direct);
     state.watts_per_quantum = carried_quantum(run, state.emission);
+    state.dither = static_cast<std::uint32_t>(mix64(run.settings.seed));
     Pass pass(run, state);
     PassResult result;
     std::vector<double> planned;
