@@ -68,7 +68,7 @@ TEST_CASE("equal bits and a residual of 0 on any number of threads") {
 
 TEST_CASE("equal bits whether workers have banks of their own or share one") {
     // Memory allows seven banks, but not 16. Fails when the last tiles of a batch are not added
-    // to the shared bank (planted: a round that begins without the one before being applied).
+    // to the shared bank (planted: the last round not applied).
     Scene scene = mixed_scene();
     for (Surface& surface : scene.surfaces)
         surface.grid_u = surface.grid_v = 150;
@@ -95,7 +95,8 @@ TEST_CASE("equal bits whether workers have banks of their own or share one") {
 }
 
 TEST_CASE("equal bits on every instruction set that this machine has") {
-    // Fails when a kernel's product and sum are fused where the processor can (planted in merge()).
+    // Fails when a value depends on the place in a vector (planted: in merge(), the dither of a
+    // band counted from the vector's first).
     Scene scene = mixed_scene();
     SolveSettings settings;
     settings.bundles = 100;

@@ -57,7 +57,7 @@ TEST_CASE("a list is followed in pairs that face each other") {
 
 TEST_CASE("energy is neither made nor lost, to the last quantum, on any number of banks") {
     // Random lists, shares and reflectances. Fails when what was sent is not what was taken off
-    // (planted: the emission of the batch to come taken off what was sent in the last).
+    // (planted: the exits of all batches taken for those of the last).
     Scene scene = room(grey(0.37), 4);
     scene.bands = 3;
     Patches patches = make_patches(scene);
@@ -207,8 +207,8 @@ TEST_CASE("pairs bring what lists bring, in both directions, with any bands") {
 TEST_CASE("a partition brings what banks bring, in both directions, with any bands and workers") {
     // 98 304 patches lie in four ranges, the tiles of 3000 lines fill several chunks. Fails when
     // the last chunk of a bucket is read to its end, when a run of halves goes to the bucket of its
-    // first although they differ (both planted), when a marked half is counted as an exit
-    // (planted: the mark not looked at), or the sky of an earlier tile is taken.
+    // first although they differ, when a marked half is counted as an exit, or when the sky of the
+    // round's first tile is taken for all (each planted).
     for (std::uint32_t bands : {1u, 3u, 8u})
         for (Direction direction : {Direction::bidirectional, Direction::oriented})
             for (bool lit : {false, true}) {
