@@ -30,7 +30,11 @@ const char* vectors_in_use() {
 }
 
 bool use_vectors(const char* set) {
-    hwy::SetSupportedTargetsForTest(0);  // whatever the machine has
+    auto allow = [](std::int64_t allowed) {
+        hwy::SetSupportedTargetsForTest(allowed);
+        hwy::GetChosenTarget().DeInit();  // what was chosen is chosen again
+    };
+    allow(0);  // whatever the machine has
     if (std::strcmp(set, "auto") == 0)
         return true;
     const std::int64_t machine = hwy::SupportedTargets() | HWY_SCALAR;
@@ -38,7 +42,7 @@ bool use_vectors(const char* set) {
     for (std::size_t k = 0; k < std::size(names); ++k) {
         allowed |= targets[k];
         if (std::strcmp(set, names[k]) == 0 && (machine & telling[k])) {
-            hwy::SetSupportedTargetsForTest(machine & allowed);
+            allow(machine & allowed);
             return true;
         }
     }

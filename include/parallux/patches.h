@@ -79,4 +79,8 @@ struct PatchPlace {
 /// One a patch, in patch order. Linear.
 std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches);
 
+/// Those of patches first … end - 1 alone. Linear in the surfaces and in the cells of those met.
+std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches, std::size_t first,
+                                     std::size_t end);
+
 }  // namespace parallux

@@ -102,7 +102,8 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
 /// The name of a method, as options and statistics have it.
 const char* method_name(Method method);
 
-/// Bytes that solve() will take at its peak, state and deltas.
+/// Bytes that the process will take at the peak of solve(): the program itself, scene, patches and
+/// all that the method needs.
 std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
                                const SolveSettings& settings);
 

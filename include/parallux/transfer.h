@@ -60,7 +60,7 @@ struct TransferState {
     std::uint32_t bands = 0;
     double watts_per_quantum = 0;  ///< a power of two
     Emission emission;
-    std::uint32_t merges = 0;        ///< so far; dithers what exits carry
+    std::uint32_t dither = 0;        ///< of what exits carry, in 2⁻³²; any number to begin with
     std::vector<std::int64_t> sent;  ///< reflected power sent on; sent[patch * bands + band]
     /// Carried by an exit of this batch: emission + share. carried[patch * lanes + band]; behind
     /// the bands the exits that the last merge has seen, modulo 2³². Empty before the first merge.
@@ -106,9 +106,9 @@ TransferState dark_state(const Patches& patches, double watts_per_quantum);
 void exchange(const IntersectionLists& lists, const TransferState& state, Direction direction,
               std::span<const SkyQuanta> sky, Bank& bank, bool shared, WorkerTotals& totals);
 
-/// The same for the pairs of a bundle's lines, all under one sky.
+/// The same for the pairs of a bundle's lines, all under one sky, into a bank of the worker's own.
 void exchange_pairs(const TilePairs& pairs, const TransferState& state, Direction direction,
-                    const SkyQuanta* sky, Bank& bank, bool shared, WorkerTotals& totals);
+                    const SkyQuanta* sky, Bank& bank, WorkerTotals& totals);
 
 /// Follows the lists one line after the other, as the paper prints it: of every pair the first
 /// sends the second all that is unshot, and its emission quantum (bidirectional: both do, at once);

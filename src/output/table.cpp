@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -18,6 +19,9 @@ namespace {
 
 // Text of this size goes to the file at once: few system calls, little memory.
 constexpr std::size_t chunk = std::size_t{1} << 20;
+
+// So many places are less than what the solver has given back.
+constexpr std::size_t places_at_once = std::size_t{1} << 19;
 
 /// One row at a time, as text. std::to_chars never asks the locale for its decimal point.
 class Row {
@@ -79,7 +83,6 @@ void write_table(const std::filesystem::path& file, const Scene& scene, const Pa
                  const Solution& solution) {
     const std::size_t bands = solution.bands, values = patches.count() * bands;
     const bool estimated = !solution.stderror.empty();
-    const std::vector<PatchPlace> places = patch_places(scene, patches);
     if (patches.bands != bands || solution.radiosity.size() != values ||
         solution.irradiance.size() != values || (estimated && solution.stderror.size() != values))
         throw Error(Fault::internal, file.string() + ": the solution is not of these patches");
@@ -87,11 +90,15 @@ void write_table(const std::filesystem::path& file, const Scene& scene, const Pa
     OutputFile output(file);
     std::string text;
     Row row(text);
+    std::vector<PatchPlace> places;
     for (const std::string& name : table_columns(solution.bands))
         row.word(name);
     row.end();
     for (std::size_t patch = 0; patch < patches.count(); ++patch) {
-        const PatchPlace& place = places[patch];
+        if (patch % places_at_once == 0)
+            places = patch_places(scene, patches, patch,
+                                  std::min(patch + places_at_once, patches.count()));
+        const PatchPlace& place = places[patch % places_at_once];
         const Surface& surface = scene.surfaces.at(place.surface);
         row.index(patch).index(place.surface);
         row.word(scene.objects.at(surface.object));

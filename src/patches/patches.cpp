@@ -126,32 +126,38 @@ Patches make_patches(const Scene& scene, const PatchSettings& settings) {
 }
 
 std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches) {
-    std::vector<PatchPlace> places(patches.count());
-    auto add = [&](std::uint32_t patch, std::uint32_t s, std::uint32_t iu, std::uint32_t iv,
-                   bool back, const glm::dvec3& centre, const glm::dvec3& normal, double weight) {
-        PatchPlace& place = places[patch];
-        if (place.surface == none) {
-            place.surface = s;
-            place.iu = iu;
-            place.iv = iv;
-            place.back = back;
-        }
-        place.centre += weight * centre;
-        place.normal += weight * (back ? -normal : normal);
-    };
+    return patch_places(scene, patches, 0, patches.count());
+}
+
+std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches, std::size_t first,
+                                     std::size_t end) {
+    std::vector<PatchPlace> places(end - first);
     for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
         const SurfaceGrid& grid = patches.grids[s];
-        glm::dvec3 normal = surface_normal(scene, surface);
-        double cell = surface_area(scene, surface) / (static_cast<double>(grid.nu) * grid.nv);
-        for_each_cell(surface.shape(), grid, [&](const Cell& c) {
-            glm::dvec3 centre = surface_point(scene, surface, c.centre_u, c.centre_v);
-            add(grid.front + c.index, s, c.iu, c.iv, false, centre, normal,
-                cell / patches.area[grid.front + c.index]);
-            if (grid.back != none)
-                add(grid.back + c.index, s, c.iu, c.iv, true, centre, normal,
-                    cell / patches.area[grid.back + c.index]);
-        });
+        const std::size_t cells = static_cast<std::size_t>(grid.nu) * grid.nv;
+        const glm::dvec3 normal = surface_normal(scene, surface);
+        const double area = surface_area(scene, surface) / static_cast<double>(cells);
+        for (std::uint32_t side : {grid.front, grid.back}) {
+            if (side == none || side >= end || side + cells <= first)
+                continue;
+            const bool back = side == grid.back;
+            for_each_cell(surface.shape(), grid, [&](const Cell& c) {
+                const std::size_t patch = side + std::size_t(c.index);
+                if (patch < first || patch >= end)
+                    return;
+                PatchPlace& place = places[patch - first];
+                if (place.surface == none) {
+                    place.surface = s;
+                    place.iu = c.iu;
+                    place.iv = c.iv;
+                    place.back = back;
+                }
+                const double weight = area / patches.area[patch];
+                place.centre += weight * surface_point(scene, surface, c.centre_u, c.centre_v);
+                place.normal += weight * (back ? -normal : normal);
+            });
+        }
     }
     for (PatchPlace& place : places)
         place.normal = glm::normalize(place.normal);

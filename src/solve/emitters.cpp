@@ -1,6 +1,7 @@
 #include "solve/emitters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -52,17 +53,28 @@ std::size_t Emitters::choose(double at) const {
 
 Emitters emitters_of(const Scene& scene, const Patches& patches,
                      const std::function<std::int64_t(std::size_t)>& power) {
+    auto power_of = [&](std::uint32_t patch) {
+        std::array<std::int64_t, max_bands> own{};
+        for (std::uint32_t band = 0; band < patches.bands; ++band)
+            own[band] = power(std::size_t(patch) * patches.bands + band);
+        return own;
+    };
+    auto any = [](const std::array<std::int64_t, max_bands>& own) {
+        return std::any_of(own.begin(), own.end(), [](std::int64_t quanta) { return quanta > 0; });
+    };
+    // Count them first: arrays that grow leave the memory in pieces that stay with the process.
+    std::size_t count = 0;
+    for_all_cells(scene, patches,
+                  [&](const Emitter& piece, double) { count += any(power_of(piece.patch)); });
     Emitters emitters;
     emitters.bands = patches.bands;
+    emitters.pieces.reserve(count);
+    emitters.power.reserve(count * patches.bands);
+    emitters.up_to.reserve(count);
     for_all_cells(scene, patches, [&](const Emitter& piece, double area) {
-        std::int64_t own[max_bands];
-        bool any = false;
-        for (std::uint32_t band = 0; band < patches.bands; ++band) {
-            own[band] = power(std::size_t(piece.patch) * patches.bands + band);
-            any = any || own[band] > 0;
-        }
-        if (any)
-            add(emitters, piece, area / patches.area[piece.patch], {own, patches.bands});
+        const auto own = power_of(piece.patch);
+        if (any(own))
+            add(emitters, piece, area / patches.area[piece.patch], {own.data(), patches.bands});
     });
     close(emitters);
     return emitters;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "parallel.h"
+#include "random.h"
+#include "transfer/partition.h"
 
 namespace parallux {
 
@@ -34,13 +37,15 @@ public:
           projector_(run.scene, run.patches) {
         for (Buffers& buffers : buffers_)
             buffers.workspace = projector_.make_workspace();
+        if (banks_.shared())
+            partition_.emplace(patches_.count(), patches_.bands, plan_.threads);
     }
 
     // Projects bundles and follows their tiles.
     void bundles(std::uint64_t first, std::uint32_t count) {
         if (scene_.surfaces.size() > many_surfaces)
             one_by_one(first, count);
-        else if (count >= 4 * plan_.threads)
+        else if (count >= 4 * plan_.threads && !partition_)
             whole_bundles(first, count);
         else
             side_by_side(first, count);
@@ -76,11 +81,9 @@ private:
         projections_.resize(1);
         for (std::uint32_t k = 0; k < count; ++k) {
             projector_.project(bundle(first + k), projections_[0], plan_.threads);
-            parallel_for(plan_.threads, projections_[0].tiles(), 1,
-                         [&](std::size_t begin, std::size_t end, unsigned worker) {
-                             for (std::size_t tile = begin; tile < end; ++tile)
-                                 follow_tile(projections_[0], tile, worker);
-                         });
+            each_tile(projections_[0].tiles(), [&](std::size_t tile, unsigned worker) {
+                follow_tile(projections_[0], tile, worker);
+            });
         }
     }
 
@@ -107,15 +110,27 @@ private:
         std::vector<std::size_t> tiles_before(count + 1, 0);
         for (std::uint32_t k = 0; k < count; ++k)
             tiles_before[k + 1] = tiles_before[k] + projections_[k].tiles();
-        parallel_for(plan_.threads, tiles_before.back(), 1,
-                     [&](std::size_t begin, std::size_t end, unsigned worker) {
-                         for (std::size_t tile = begin; tile < end; ++tile) {
-                             std::size_t k = static_cast<std::size_t>(
-                                 std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
-                                 tiles_before.begin() - 1);
-                             follow_tile(projections_[k], tile - tiles_before[k], worker);
-                         }
-                     });
+        each_tile(tiles_before.back(), [&](std::size_t tile, unsigned worker) {
+            std::size_t k = static_cast<std::size_t>(
+                std::upper_bound(tiles_before.begin(), tiles_before.end(), tile) -
+                tiles_before.begin() - 1);
+            follow_tile(projections_[k], tile - tiles_before[k], worker);
+        });
+    }
+
+    // Tiles in parallel; where workers share a bank, in rounds, each added up before the next.
+    template <class Follow>
+    void each_tile(std::size_t tiles, Follow&& follow) {
+        const std::size_t round = partition_ ? partition_->tiles_a_round() : tiles;
+        for (std::size_t first = 0; first < tiles; first += round) {
+            parallel_for(plan_.threads, std::min(round, tiles - first), 1,
+                         [&](std::size_t begin, std::size_t end, unsigned worker) {
+                             for (std::size_t tile = first + begin; tile < first + end; ++tile)
+                                 follow(tile, worker);
+                         });
+            if (partition_)
+                partition_->apply(state_, banks_.of(0), plan_.threads);
+        }
     }
 
     void follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
@@ -124,8 +139,12 @@ private:
         SkyQuanta sky;
         if (lit_)
             sky = sky_quanta(scene_, plan_, state_, projection.bundle.direction);
-        exchange_pairs(buffers.pairs, state_, settings_.direction, lit_ ? &sky : nullptr,
-                       banks_.of(worker), banks_.shared(), banks_.totals(worker));
+        if (partition_)
+            partition_->put(worker, buffers.pairs, state_, settings_.direction,
+                            lit_ ? &sky : nullptr, banks_.totals(worker));
+        else
+            exchange_pairs(buffers.pairs, state_, settings_.direction, lit_ ? &sky : nullptr,
+                           banks_.of(worker), banks_.totals(worker));
     }
 
     const Scene& scene_;
@@ -138,6 +157,7 @@ private:
     std::vector<Buffers> buffers_;
     bool lit_;
     Projector projector_;
+    std::optional<Partition> partition_;  // where the workers share a bank
     std::vector<Projection> projections_;
 };
 
@@ -176,6 +196,7 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     settle(run, direct);
     state.emission = emission_of(run, direct);
     state.watts_per_quantum = carried_quantum(run, state.emission);
+    state.dither = static_cast<std::uint32_t>(mix64(run.settings.seed));
     Pass pass(run, state);
     PassResult result;
     std::vector<double> planned;

@@ -8,6 +8,10 @@
 
 namespace parallux {
 
+namespace {
+constexpr double faint = 100;
+}
+
 Leftover::Leftover(const Scene& scene, const Patches& patches, std::vector<double> planned,
                    unsigned threads)
     : scene_(scene),
@@ -96,7 +100,8 @@ std::vector<double> Leftover::factors(const TransferState& state, const Banks& b
             std::size_t k = group * bands + band;
             const double first = static_cast<double>(notes_[1][k] - notes_[0][k]);
             const double second = static_cast<double>(notes_[2][k] - notes_[1][k]);
-            if (!(first > 0 && second > 0))
+            // Of too few quanta the fall tells nothing.
+            if (!(first > faint && second > faint))
                 continue;
             double r = std::min(second / first, 0.9999);
             to_come[group] = second * r / (1 - r) / static_cast<double>(notes_[2][k]);

@@ -9,7 +9,9 @@
 #include "parallel.h"
 #include "parallux/error.h"
 #include "reference/matrix.h"
+#include "solve/emitters.h"
 #include "transfer/banks.h"
+#include "transfer/partition.h"
 
 namespace parallux {
 
@@ -193,27 +195,69 @@ double sky_bound(const Sky& sky, std::uint32_t band) {
     return most * sky.scale;
 }
 
-std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
-                               const SolveSettings& settings) {
+namespace {
+
+// Bytes of the stages that follow one another, and what they all work on.
+struct Footprint {
+    const Scene& scene;
+    const Patches& patches;
+    const SolveSettings& settings;
     std::uint64_t count = patches.count();
     std::uint32_t bands = patches.bands;
     unsigned threads = thread_count(settings.threads);
-    // Patches: area, reflectance, emission. State: four arrays of quanta, the exits. Direct light:
-    // two arrays. Result: radiosity, irradiance, crossings; it exists beside the state.
-    std::uint64_t patch_bytes = 8 + bands * 8 + (bands * 4 * 8 + 8) + bands * 2 * 8 + bands * 8 + 8;
-    std::uint64_t banks = Banks::count(count, bands, threads, bank_limit(settings));
-    // Surfaces as read, and the ray tracer's own copy of them with its tree.
-    std::uint64_t surface_bytes = sizeof(Surface) + sizeof(SurfaceGrid) + 200;
-    // A projection holds corners, and each surface in a tile or two.
-    std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
-    std::uint64_t matrix = settings.method == Method::matrix ? matrix_bytes(count) : 0;
-    return matrix + count * patch_bytes + banks * Banks::bytes_a_bank(count, bands) +
-           scene.surfaces.size() * (surface_bytes + projections * 8) +
-           scene.positions.size() * (sizeof(glm::dvec3) + 12 + projections * 12) + (64u << 20);
+    unsigned banks = Banks::count(count, bands, threads, bank_limit(settings));
+    bool local = needs_rays(scene, patches, settings);
+
+    // The program with its libraries; surfaces as read, and the ray tracer's own copy of them with
+    // its tree.
+    std::uint64_t loaded() const {
+        return (std::uint64_t(132) << 20) + count * (8 + bands * 8) +
+               scene.surfaces.size() * (sizeof(Surface) + sizeof(SurfaceGrid) + 200) +
+               scene.positions.size() * (sizeof(glm::dvec3) + 12);
+    }
+    std::uint64_t all_banks() const { return banks * Banks::bytes_a_bank(count, bands); }
+    // Direct light: an irradiance. Single shots: what they took, and the exitance they leave.
+    std::uint64_t direct() const {
+        return count * ((local ? bands * 4 : 0) + (settings.shots > 0 ? bands * 4 : 0));
+    }
+    // The cells that send, with their power.
+    std::uint64_t first_shot() const {
+        std::uint64_t cells = 0;
+        for (std::size_t patch = 0; local && patch < count; ++patch)
+            cells += std::any_of(&patches.emission[patch * bands],
+                                 &patches.emission[patch * bands] + bands,
+                                 [](float emission) { return emission > 0; });
+        bool all = settings.shots > 0 || settings.method == Method::progressive ||
+                   settings.method == Method::particles || settings.first_shot == FirstShot::exact;
+        return all_banks() + cells * (sizeof(Emitter) + bands * 8 + 8) +
+               (all ? count * (100 + bands * 12) : 0);
+    }
+    // What was sent, what exits carry, pairs on their way. A projection holds corners, and each
+    // surface in a tile or two.
+    std::uint64_t pass() const {
+        std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
+        return all_banks() + direct() + count * (bands * 8 + lanes(bands) * 4) +
+               (banks < threads ? Partition::bytes(threads) : 0) +
+               projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
+               (settings.method == Method::matrix ? matrix_bytes(count) : 0);
+    }
+    // Radiosity, irradiance and crossings beside one bank.
+    std::uint64_t gather() const {
+        return Banks::bytes_a_bank(count, bands) + count * (bands * 8 + 8);
+    }
+};
+
+}  // namespace
+
+std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
+                               const SolveSettings& settings) {
+    const Footprint footprint{scene, patches, settings};
+    return footprint.loaded() +
+           std::max({footprint.first_shot(), footprint.pass(), footprint.gather()});
 }
 
 std::uint64_t bank_limit(const SolveSettings& settings) {
-    std::uint64_t limit = std::uint64_t(1) << 30;
+    std::uint64_t limit = std::uint64_t(1) << 28;
     return settings.max_memory ? std::min(limit, settings.max_memory / 4) : limit;
 }
 

@@ -11,8 +11,7 @@ namespace parallux {
 
 unsigned Banks::count(std::size_t patches, std::uint32_t bands, unsigned workers,
                       std::uint64_t allowed) {
-    std::uint64_t fit = allowed / std::max<std::uint64_t>(1, bytes_a_bank(patches, bands));
-    return static_cast<unsigned>(std::clamp<std::uint64_t>(fit, 1, workers));
+    return workers * bytes_a_bank(patches, bands) <= allowed ? workers : 1;
 }
 
 Banks::Banks(std::size_t patches, std::uint32_t bands, unsigned workers, std::uint64_t allowed)

@@ -7,12 +7,12 @@
 
 namespace parallux {
 
-/// What all workers have received, and the totals of each. Every worker has its own bank while
-/// memory allows; beyond that several share one and add atomically, so that memory does not grow
-/// with threads × patches.
+/// What all workers have received, and the totals of each. Every worker has a bank of its own while
+/// memory allows; beyond that all share one, so that memory does not grow with threads × patches:
+/// pairs then go through a Partition, single additions are atomic.
 class Banks {
 public:
-    /// At most `allowed` bytes in all, but always one bank.
+    /// At most `allowed` bytes in all, or one bank.
     Banks(std::size_t patches, std::uint32_t bands, unsigned workers, std::uint64_t allowed);
 
     Bank& of(unsigned worker) { return banks_[worker % banks_.size()]; }

@@ -230,8 +230,8 @@ void merge(TransferState& state, const Patches& patches, const std::vector<Bank>
     job.batch = next.batch;
     job.emission_before = state.emission.quanta;
     job.emission_after = next.emission;
-    job.dither_before = state.merges * dither_merge;
-    job.dither_after = (state.merges + 1) * dither_merge;
+    job.dither_before = state.dither;
+    job.dither_after = state.dither + dither_merge;
 
     constexpr std::size_t patches_a_piece = 1024;
     std::vector<MergeTotals> sums(thread_count(threads));
@@ -240,7 +240,7 @@ void merge(TransferState& state, const Patches& patches, const std::vector<Bank>
                      HWY_DYNAMIC_DISPATCH(merge_patches)(job, begin, end, sums[worker]);
                  });
 
-    ++state.merges;
+    state.dither = job.dither_after;
     state.emission.quanta = next.emission;
     for (std::uint32_t band = 0; band < state.bands; ++band) {
         state.absorbed[band] = 0;

@@ -8,6 +8,7 @@
 #include "random.h"
 #include "support/hand_made.h"
 #include "transfer/banks.h"
+#include "transfer/partition.h"
 
 using namespace parallux;
 using namespace parallux::test;
@@ -56,7 +57,7 @@ TEST_CASE("a list is followed in pairs that face each other") {
 
 TEST_CASE("energy is neither made nor lost, to the last quantum, on any number of banks") {
     // Random lists, shares and reflectances. Fails when what was sent is not what was taken off
-    // (planted: the emission of the batch to come taken off what was sent in the last).
+    // (planted: the exits of all batches taken for those of the last).
     Scene scene = room(grey(0.37), 4);
     scene.bands = 3;
     Patches patches = make_patches(scene);
@@ -117,59 +118,127 @@ TEST_CASE("energy is neither made nor lost, to the last quantum, on any number o
             CHECK(banks.received(patch, lane) == one.received(patch, lane));
 }
 
-TEST_CASE("pairs bring what lists bring, in both directions, with any bands and banks") {
+namespace {
+
+// Lists of up to four hits between `spread` patches and inert backs.
+IntersectionLists random_lists(const Patches& patches, int lines, Random& random, double spread) {
+    IntersectionLists lists;
+    const double first = random.uniform() * (double(patches.count()) - spread);
+    for (int line = 0; line < lines; ++line) {
+        for (int k = 0; k < line % 5; ++k) {
+            auto side = [&] {
+                auto patch = std::uint32_t(first + random.uniform() * 1.3 * spread);
+                return patch < first + spread ? patch : none;
+            };
+            std::uint32_t toward = side(), away = side();
+            lists.hits.push_back({float(k), 0, toward, away});
+        }
+        lists.start.push_back(std::uint32_t(lists.hits.size()));
+    }
+    return lists;
+}
+
+// A state in which every exit carries something at random.
+TransferState carrying_state(const Patches& patches, Random& random) {
+    TransferState state = dark_state(patches, 1);
+    state.carried.resize(patches.count() * lanes(patches.bands));
+    for (std::int32_t& carried : state.carried)
+        carried = std::int32_t((random.uniform() - 0.1) * most_carried);
+    return state;
+}
+
+SkyQuanta some_sky() {
+    SkyQuanta sky;
+    for (std::uint32_t band = 0; band < max_bands; ++band) {
+        sky.along[band] = 1000 + band;
+        sky.against[band] = 2000 + band;
+    }
+    return sky;
+}
+
+void check_same(Banks& a, Banks& b) {
+    for (std::size_t patch = 0; patch < a.patches(); ++patch)
+        for (std::uint32_t lane = 0; lane <= a.bands(); ++lane)
+            REQUIRE(a.received(patch, lane) == b.received(patch, lane));
+}
+
+void check_same(const WorkerTotals& a, const WorkerTotals& b) {
+    CHECK(a.escaped == b.escaped);
+    CHECK(a.sky == b.sky);
+    CHECK(a.counts.lines == b.counts.lines);
+    CHECK(a.counts.hits == b.counts.hits);
+    CHECK(a.counts.odd == b.counts.odd);
+    CHECK(a.counts.transfers == b.counts.transfers);
+    CHECK(a.counts.nonempty == b.counts.nonempty);
+}
+
+}  // namespace
+
+TEST_CASE("pairs bring what lists bring, in both directions, with any bands") {
     // Fails when an exit is counted at the wrong end (planted: oriented exits added to the
     // receiver), when a band is left out of the lanes, or when the sky of an end is forgotten.
     for (std::uint32_t bands : {1u, 2u, 3u, 4u, 7u, 8u})
         for (Direction direction : {Direction::bidirectional, Direction::oriented})
-            for (std::uint64_t allowed : {1ull, 1ull << 30}) {
+            for (unsigned workers : {1u, 2u}) {
                 Scene scene = room(grey(0.37), 4);
                 scene.bands = bands;
                 Patches patches = make_patches(scene);
-                TransferState state = dark_state(patches, 1);
                 Random random(bands, 9);
-                state.carried.resize(patches.count() * lanes(bands));
-                for (std::int32_t& carried : state.carried)
-                    carried = std::int32_t((random.uniform() - 0.1) * most_carried);
-                IntersectionLists lists;
-                for (int line = 0; line < 500; ++line) {
-                    for (int k = 0; k < line % 5; ++k) {
-                        auto side = [&] {
-                            auto patch =
-                                std::uint32_t(random.uniform() * 1.3 * double(patches.count()));
-                            return patch < patches.count() ? patch : none;
-                        };
-                        std::uint32_t toward = side(), away = side();
-                        lists.hits.push_back({float(k), 0, toward, away});
-                    }
-                    lists.start.push_back(std::uint32_t(lists.hits.size()));
-                }
-                SkyQuanta sky;
-                for (std::uint32_t band = 0; band < bands; ++band) {
-                    sky.along[band] = 1000 + band;
-                    sky.against[band] = 2000 + band;
-                }
-                Banks by_lists(patches.count(), bands, 2, allowed);
-                Banks by_pairs(patches.count(), bands, 2, allowed);
-                exchange(lists, state, direction, {&sky, 1}, by_lists.of(1), by_lists.shared(),
-                         by_lists.totals(1));
+                TransferState state = carrying_state(patches, random);
+                IntersectionLists lists =
+                    random_lists(patches, 500, random, double(patches.count()));
+                SkyQuanta sky = some_sky();
+                // One bank for two workers: the lists' additions are atomic then.
+                Banks by_lists(patches.count(), bands, workers, 1);
+                Banks by_pairs(patches.count(), bands, 1, 1);
+                exchange(lists, state, direction, {&sky, 1}, by_lists.of(0), by_lists.shared(),
+                         by_lists.totals(0));
                 TilePairs pairs;
                 append_pairs(lists, pairs);
-                exchange_pairs(pairs, state, direction, &sky, by_pairs.of(1), by_pairs.shared(),
-                               by_pairs.totals(1));
-                for (std::size_t patch = 0; patch < patches.count(); ++patch)
-                    for (std::uint32_t lane = 0; lane <= bands; ++lane)
-                        REQUIRE(by_lists.received(patch, lane) == by_pairs.received(patch, lane));
-                CHECK(by_lists.totals(1).escaped == by_pairs.totals(1).escaped);
-                CHECK(by_lists.totals(1).sky == by_pairs.totals(1).sky);
-                const LineCounts &a = by_lists.totals(1).counts, &b = by_pairs.totals(1).counts;
-                CHECK(a.lines == b.lines);
-                CHECK(a.hits == b.hits);
-                CHECK(a.odd == b.odd);
-                CHECK(a.transfers == b.transfers);
-                CHECK(a.nonempty == b.nonempty);
+                exchange_pairs(pairs, state, direction, &sky, by_pairs.of(0), by_pairs.totals(0));
+                check_same(by_lists, by_pairs);
+                check_same(by_lists.totals(0), by_pairs.totals(0));
                 if (direction == Direction::bidirectional)
-                    CHECK(a.met_backs == b.met_backs);
+                    CHECK(by_lists.totals(0).counts.met_backs ==
+                          by_pairs.totals(0).counts.met_backs);
+            }
+}
+
+TEST_CASE("a partition brings what banks bring, in both directions, with any bands and workers") {
+    // 98 304 patches lie in four ranges, the tiles of 3000 lines fill several chunks. Fails when
+    // the last chunk of a bucket is read to its end, when a run of halves goes to the bucket of its
+    // first although they differ, when a marked half is counted as an exit, or when the sky of the
+    // round's first tile is taken for all (each planted).
+    for (std::uint32_t bands : {1u, 3u, 8u})
+        for (Direction direction : {Direction::bidirectional, Direction::oriented})
+            for (bool lit : {false, true}) {
+                Scene scene = room(grey(0.37), 128);
+                scene.bands = bands;
+                Patches patches = make_patches(scene);
+                Random random(bands, 10);
+                TransferState state = carrying_state(patches, random);
+                Banks own(patches.count(), bands, 1, 1), one(patches.count(), bands, 3, 1);
+                REQUIRE(one.shared());
+                Partition partition(patches.count(), bands, 3);
+                for (unsigned tile = 0; tile < 9; ++tile) {
+                    SkyQuanta sky = some_sky();
+                    sky.along[0] += tile;
+                    TilePairs pairs;
+                    // Neighbours in one range, or patches from all of them.
+                    const double spread = tile % 2 ? 500 : double(patches.count());
+                    append_pairs(random_lists(patches, 3000, random, spread), pairs);
+                    exchange_pairs(pairs, state, direction, lit ? &sky : nullptr, own.of(0),
+                                   own.totals(0));
+                    // All of the first round by one worker; the workers take turns in the second.
+                    unsigned worker = tile < 4 ? 1 : tile % 3;
+                    partition.put(worker, pairs, state, direction, lit ? &sky : nullptr,
+                                  one.totals(0));
+                    if (tile == 3 || tile == 8)
+                        partition.apply(state, one.of(0), 2);
+                }
+                check_same(own, one);
+                check_same(own.totals(0), one.totals(0));
+                CHECK(own.totals(0).counts.met_backs == one.totals(0).counts.met_backs);
             }
 }
 
@@ -193,7 +262,8 @@ TEST_CASE("the linear share is the cell over the area, and never more than all")
 }
 
 TEST_CASE("banks never take more than they may") {
-    CHECK(Banks::count(1000, 3, 64, 32'000 * 5) == 5);
+    CHECK(Banks::count(1000, 3, 64, 32'000 * 64) == 64);
+    CHECK(Banks::count(1000, 3, 64, 32'000 * 64 - 1) == 1);
     CHECK(Banks::count(1000, 3, 64, 1) == 1);
     CHECK(Banks::count(1000, 3, 4, std::uint64_t(1) << 40) == 4);
 }
