@@ -93,6 +93,14 @@ std::uint64_t machine_memory() {
            static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 }
 
+// A 64th of the bundles up to 16. Long runs take a 256th, up to 64: light waits for no larger share
+// of the run, and merges, where the workers exchange their caches, are fewer.
+std::uint32_t usual_batch(std::uint64_t bundles) {
+    const std::uint64_t few = std::min<std::uint64_t>(bundles / 64, 16);
+    return static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(bundles / 256, std::max<std::uint64_t>(few, 1), 64));
+}
+
 // A merge counts the exits of a batch in 32 bits.
 constexpr double most_lines_a_batch = 1 << 30;
 
@@ -142,8 +150,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.emission_cell *= 2;
     plan.batch = settings.batch;
     if (settings.method == Method::bundles && settings.batch == 0)
-        plan.batch =
-            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
+        plan.batch = usual_batch(plan.bundles);
     if (plan.batch > 0)
         limit_batch(disc / plan.cell, plan);
 }

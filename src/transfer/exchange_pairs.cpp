@@ -17,7 +17,9 @@ namespace HWY_NAMESPACE {
 template <std::uint32_t bands>
 void exchange_both(const PatchList& from, const PatchList& to, const std::int32_t* carried,
                    std::int64_t* received) {
-    constexpr std::size_t ahead = 16, count = lanes(bands);
+    // So far that memory has answered: measured from 16 to 256 with a million patches, where 256 is
+    // 1.7 times as fast as 16; with few patches there is no difference.
+    constexpr std::size_t ahead = 256, count = lanes(bands);
     const std::uint32_t *i = from.ids.data(), *j = to.ids.data();
     for (std::size_t k = 0; k < from.count; ++k) {
         const std::size_t a = i[k] * count, b = j[k] * count;
