@@ -10,6 +10,7 @@
 #include "lines/edge_walk.h"
 #include "lines/fill_surface.h"
 #include "lines/hit_layers.h"
+#include "lines/hits-inl.h"
 
 #ifndef PARALLUX_LINES_FILL_LAYERS_ONCE
 #define PARALLUX_LINES_FILL_LAYERS_ONCE
@@ -524,8 +525,8 @@ HWY_INLINE void fill_class(const Triangles& t, std::uint32_t which, HitLayers& l
                     hn::ConvertTo(i, hn::Add(hn::Set(d, t.depth[k]), hn::Add(along, deep)));
                 const VI line = hn::Add(hn::Load(i, shape.line + part * lanes),
                                         hn::Set(i, t.line[k] + block * down * HitLayers::side));
-                hn::StoreU(hn::Compress(line, in), i, buffer.line + buffer.count);
-                hn::StoreU(hn::Compress(depth, in), i, buffer.depth + buffer.count);
+                hn::StoreU(squeeze(line, in), i, buffer.line + buffer.count);
+                hn::StoreU(squeeze(depth, in), i, buffer.depth + buffer.count);
                 hn::StoreU(hn::Set(i, t.id[k]), i, buffer.id + buffer.count);
                 buffer.count += hn::CountTrue(i, in);
             }

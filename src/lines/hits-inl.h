@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include "lines/squeezed_lanes.h"
 #include "lines/surface_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -67,12 +68,29 @@ HWY_INLINE Hits<D> hits_of(D d, const SurfaceView& view, hn::Vec<D> x, float y) 
     return hits;
 }
 
+// The lanes of `which` first, the others after them.
+template <class V, class M>
+HWY_INLINE V squeeze(V v, M which) {
+#if HWY_TARGET == HWY_AVX2
+    // Highway's own form copies its table to the stack at every call.
+    const hn::DFromV<V> d;
+    const hn::Rebind<std::uint8_t, hn::DFromV<V>> d8;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, which, bits);
+    const auto lanes =
+        hn::PromoteTo(hn::RebindToSigned<decltype(d)>(), hn::LoadU(d8, squeezed_lanes.of[bits[0]]));
+    return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
+#else
+    return hn::Compress(v, which);
+#endif
+}
+
 // Appends those patches of `which` to a list. The place must have room for a whole vector.
 template <class V, class M>
 HWY_INLINE std::size_t append(std::uint32_t* place, V patches, M which) {
     const hn::DFromV<V> d;
     // Not CompressStore: its form to memory takes a hundred cycles on some processors.
-    hn::StoreU(hn::Compress(patches, which), d, reinterpret_cast<hn::TFromV<V>*>(place));
+    hn::StoreU(squeeze(patches, which), d, reinterpret_cast<hn::TFromV<V>*>(place));
     return hn::CountTrue(d, which);
 }
 

@@ -65,7 +65,7 @@ HWY_INLINE void meet(const SurfaceView& view, const Hits<Floats>& hits, Lines wh
             append_to(pairs.into_backs, front.last, from_patch);
     } else {
         const VI toward = patch_of(view.toward, hits.cell);
-        hn::StoreU(hn::Compress(front.last, from_patch), i,
+        hn::StoreU(squeeze(front.last, from_patch), i,
                    reinterpret_cast<std::int32_t*>(pairs.from.ids.data()) + pairs.from.count);
         append_to(pairs.to, toward, from_patch);
         pairs.from.count = pairs.to.count;
