@@ -334,8 +334,9 @@ public:
         const Ints i;
         const std::size_t count = std::min(tile_.count - view, hn::Lanes(i));
         const Lines present = hn::FirstN(i, count);
-        const VI s = hn::MaskedLoad(present, i,
-                                    reinterpret_cast<const std::int32_t*>(tile_.surfaces + view));
+        alignas(64) std::int32_t own[16] = {};
+        std::memcpy(own, tile_.surfaces + view, count * sizeof own[0]);
+        const VI s = hn::Load(i, own);
         // Corners of triangles, as the lines from the box's first see them.
         VI x[3], y[3], depth[3];
         const VI surface = hn::ShiftLeft<3>(s);
