@@ -85,16 +85,19 @@ struct Merger {
     static constexpr hn::Rebind<float, Integers> floats{};
     static constexpr hn::Rebind<std::int32_t, Integers> narrow{};
     static constexpr std::uint32_t step = hn::MaxLanes(Integers());
+    static constexpr std::uint32_t chunks = (bands + step - 1) / step;
     using VI = hn::Vec<Integers>;
     using VD = hn::Vec<decltype(doubles)>;
     using VN = hn::Vec<decltype(narrow)>;
 
-    const MergeJob& job;
-    MergeTotals& totals;
+    // By value: a copy that nobody else can see stays in registers.
+    const MergeJob job;
+    VI absorbed[chunks], emitted[chunks];
     double area = 0, share = 0;
 
-    HWY_INLINE static void add(VI v, std::int64_t* target) {
-        hn::StoreU(hn::Add(hn::LoadU(integers, target), v), integers, target);
+    explicit Merger(const MergeJob& the_job) : job(the_job) {
+        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk)
+            absorbed[chunk] = emitted[chunk] = hn::Zero(integers);
     }
 
     // In [0, 1): even over patches, over bands, and over the merges.
@@ -119,7 +122,7 @@ struct Merger {
     }
 
     template <std::size_t n>
-    HWY_INLINE void merge_bands(std::size_t patch, std::uint32_t first, std::int64_t exits) const {
+    HWY_INLINE void merge_bands(std::size_t patch, std::uint32_t first, std::int64_t exits) {
         const std::size_t k = patch * bands + first, lane = patch * lanes(bands) + first;
         const auto start = static_cast<std::uint32_t>(patch) * dither_patch + first * dither_band;
 
@@ -142,8 +145,10 @@ struct Merger {
             received = hn::Add(received, hn::Load(integers, job.banks[bank] + lane));
         const VI reflected = hn::ConvertTo(
             integers, hn::Round(hn::Mul(reflectance, hn::ConvertTo(doubles, received))));
-        add(hn::Sub(received, reflected), totals.absorbed + first);
-        add(product(integers, hn::PromoteTo(integers, emission), left), totals.emitted + first);
+        VI &absorbed_here = absorbed[first / step], &emitted_here = emitted[first / step];
+        absorbed_here = hn::Add(absorbed_here, hn::Sub(received, reflected));
+        emitted_here =
+            hn::Add(emitted_here, product(integers, hn::PromoteTo(integers, emission), left));
 
         // Every exit takes its share.
         const VD most = hn::Set(doubles, most_carried);
@@ -157,7 +162,7 @@ struct Merger {
     }
 
     template <std::uint32_t first>
-    HWY_INLINE void merge_from(std::size_t patch, std::int64_t exits) const {
+    HWY_INLINE void merge_from(std::size_t patch, std::int64_t exits) {
         constexpr std::uint32_t n = std::min(step, bands - first);
         merge_bands<n>(patch, first, exits);
         if constexpr (first + n < bands)
@@ -171,25 +176,36 @@ struct Merger {
             share = std::min(1.0, job.cell / area) / job.batch;
         }
         const std::size_t lane = patch * lanes(bands) + bands;
-        std::uint32_t exits = 0;
-        for (std::size_t bank = 0; bank < job.bank_count; ++bank)
-            exits += static_cast<std::uint32_t>(job.banks[bank][lane]);
+        // As vectors of one: the compiler would make a long loop of these few.
+        const hn::CappedTag<std::int64_t, 1> one;
+        auto left = hn::LoadU(one, job.banks[0] + lane);
+        for (std::size_t bank = 1; bank < job.bank_count; ++bank)
+            left = hn::Add(left, hn::LoadU(one, job.banks[bank] + lane));
+        const auto exits = static_cast<std::uint32_t>(hn::GetLane(left));
         const std::uint32_t seen = static_cast<std::uint32_t>(job.carried[lane]);
         merge_from<0>(patch, exits - seen);
         job.carried[lane] = static_cast<std::int32_t>(exits);
     }
+
+    void add_to(MergeTotals& totals) const {
+        std::int64_t sums[2][chunks * step];
+        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+            hn::StoreU(absorbed[chunk], integers, &sums[0][chunk * step]);
+            hn::StoreU(emitted[chunk], integers, &sums[1][chunk * step]);
+        }
+        for (std::uint32_t band = 0; band < bands; ++band) {
+            totals.absorbed[band] += sums[0][band];
+            totals.emitted[band] += sums[1][band];
+        }
+    }
 };
 
 void merge_patches(const MergeJob& job, std::size_t begin, std::size_t end, MergeTotals& totals) {
-    for_bands(job.bands, [&](auto bands) {
-        MergeTotals sums;
-        Merger<bands()> merger{job, sums};
+    for_bands(job.bands, [&](auto bands) HWY_ATTR {
+        Merger<bands()> merger(job);
         for (std::size_t patch = begin; patch < end; ++patch)
             merger.merge_patch(patch);
-        for (std::uint32_t band = 0; band < bands(); ++band) {
-            totals.absorbed[band] += sums.absorbed[band];
-            totals.emitted[band] += sums.emitted[band];
-        }
+        merger.add_to(totals);
     });
 }
 

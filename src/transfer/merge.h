@@ -22,10 +22,10 @@ struct MergeJob {
 };
 
 /// Band totals of a worker's patches: absorbed since the banks were cleared, emitted since the last
-/// merge. Two places more than bands, because whole vectors are added.
+/// merge.
 struct alignas(64) MergeTotals {
-    std::int64_t absorbed[max_bands + 4] = {};
-    std::int64_t emitted[max_bands + 4] = {};
+    std::int64_t absorbed[max_bands] = {};
+    std::int64_t emitted[max_bands] = {};
 };
 
 /// What is less than a quantum is rounded down after a number of [0, 1) was added: fraction of

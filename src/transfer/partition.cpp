@@ -50,7 +50,7 @@ void put_pairs(const PatchList& from, const PatchList& to, Partition::Store& sto
 void apply_halves(std::uint32_t band_count, const Half* halves, std::size_t count,
                   const std::int32_t* carried, const std::int32_t* outside,
                   std::int64_t* received) {
-    constexpr std::size_t ahead = 16;
+    constexpr std::size_t ahead = 64;
     for_bands(band_count, [&](auto bands) HWY_ATTR {
         constexpr std::size_t width = lanes(bands());
         auto source = [&](std::uint32_t from) HWY_ATTR {
