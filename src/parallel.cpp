@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -127,6 +129,31 @@ private:
 
 thread_local Team::Crew* own_crew = nullptr;
 
+// Adds its life to the loops' time; of loops within loops only the outermost.
+class LoopWatch {
+public:
+    LoopWatch() : outermost_(!within_) { within_ = true; }
+    ~LoopWatch() {
+        if (!outermost_)
+            return;
+        within_ = false;
+        total_ += std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+    LoopWatch(const LoopWatch&) = delete;
+    LoopWatch& operator=(const LoopWatch&) = delete;
+
+    static double total() { return total_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static thread_local bool within_;
+    static thread_local double total_;
+    bool outermost_;
+    Clock::time_point start_ = Clock::now();
+};
+thread_local bool LoopWatch::within_ = false;
+thread_local double LoopWatch::total_ = 0;
+
 }  // namespace
 
 // Workers that take part in one loop after another. The owner publishes a loop and closes it again
@@ -242,12 +269,19 @@ Team::~Team() {
         own_crew = nullptr;
 }
 
+double seconds_in_loops() {
+    return LoopWatch::total();
+}
+
 void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t, unsigned)>& body) {
     if (count == 0)
         return;
     grain = std::max<std::size_t>(1, grain);
     const std::size_t wanted = (count - 1) / grain + 1;
+    std::optional<LoopWatch> watch;
+    if (wanted > 1)
+        watch.emplace();
     if (wanted == 1 || thread_count(threads) == 1 || (own_crew && own_crew->busy())) {
         for (std::size_t begin = 0; begin < count; begin += grain)
             body(begin, std::min(begin + grain, count), 0);

@@ -18,6 +18,10 @@ unsigned thread_count(unsigned requested);
 void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t, unsigned)>& body);
 
+/// Seconds that the calling thread has spent in loops of more than one piece, however many threads
+/// they had: the rest of a program's time is what no thread more would shorten.
+double seconds_in_loops();
+
 /// Keeps workers at hand for the loops of the thread that made it, while it lives: loops of a few
 /// hundred microseconds would be over before sleeping workers wake. Workers wait for the next loop
 /// on their processors for about a millisecond, then sleep.

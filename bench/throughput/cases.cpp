@@ -1,5 +1,6 @@
 #include "throughput/cases.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -37,7 +38,7 @@ Scene in_rgb(Scene scene) {
 
 Scene scene_of(const std::string& name, bool tiny, Plan& plan) {
     if (name == "paper-12150") {
-        plan = {0, true, tiny ? 32u : 8192u, 0};
+        plan = {0, true, tiny ? 32u : 16384u, 0};
         return in_rgb(load_scene(scenes / "paper_12150.json"));
     }
     if (name == "paper-1200000") {
@@ -45,10 +46,10 @@ Scene scene_of(const std::string& name, bool tiny, Plan& plan) {
         return in_rgb(load_scene(scenes / "paper_12150.json"));
     }
     if (name == "room-300000") {
-        plan = {0, false, tiny ? 8u : 24u, tiny ? 128. * 128 : 1024. * 1024};
+        plan = {0, false, tiny ? 8u : 96u, tiny ? 128. * 128 : 1024. * 1024};
         return make_room(tiny ? 0.1 : 1);
     }
-    plan = {300'000, true, 8, 2048. * 2048};
+    plan = {300'000, true, 16, 2048. * 2048};
     if (name == "kitchen")
         return load_scene(kitchen);
     plan = {0, true, 64, 0};
@@ -69,7 +70,8 @@ SolveSettings Case::settings(unsigned threads) const {
     settings.first_shot = FirstShot::off;
     settings.bundles = bundles;
     settings.line_spacing = spacing;
-    settings.batch = 16;  // what a run of the usual length has
+    // What a run of the usual length has, and what longer ones have.
+    settings.batch = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bundles / 256, 16, 64));
     settings.threads = threads;
     return settings;
 }

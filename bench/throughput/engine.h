@@ -15,6 +15,7 @@ struct Measured {
     double seconds = 0;  ///< from the bundle (or its lines) to the merged deltas
     LineCounts counts;
     std::vector<std::uint64_t> exits;  ///< lines that left each patch
+    double serial = 0;  ///< of the seconds, those that more threads would not shorten
 
     double lines_per_second() const { return static_cast<double>(counts.lines) / seconds; }
 };
@@ -40,7 +41,7 @@ private:
     const Case& case_;
 };
 
-/// The names of the engines, bundles first.
+/// The names of the engines, bundles first. "bundle-apart" runs with two threads and more only.
 const std::vector<std::string>& engine_names();
 
 /// One engine by its name. References keep a reference to the case. `whole`: let them do all of its

@@ -45,22 +45,33 @@ Ratios ratios_of(const std::vector<Row>& rows, const Row& bundle) {
             best ? best->engine : ""};
 }
 
-// What two threads gain over one, and the share of the work that does not gain (G. Amdahl, 1967).
+// What more threads gain over one, and over as many processes of one thread each; and the share of
+// one thread's time that does not gain (G. Amdahl, 1967), as the run itself measured it.
 struct Scaling {
-    double gain = 0, serial = 0;
+    double gain = 0, of_apart = 0, serial = 0;
 
     double gain_of(double cores) const { return 1 / (serial + (1 - serial) / cores); }
 };
 
 Scaling scaling_of(const std::vector<Row>& rows, const Row& row) {
-    const Row* one = find(rows, row, row.engine, 1);
     Scaling scaling;
-    if (!one || row.threads < 2)
-        return scaling;
-    const double n = row.threads;
-    scaling.gain = ratio(row, *one);
-    scaling.serial = std::max(0.0, (n / scaling.gain - 1) / (n - 1));
+    if (const Row* one = find(rows, row, row.engine, 1)) {
+        scaling.serial = median(one->serial);
+        if (row.threads > 1)
+            scaling.gain = ratio(row, *one);
+    }
+    if (const Row* apart = find(rows, row, "bundle-apart", row.threads))
+        scaling.of_apart = ratio(row, *apart);
     return scaling;
+}
+
+void print_scaling(const Row& row, const Scaling& scaling) {
+    if (row.threads == 1)
+        std::printf("1 thread: %.2f %% serial; on 64 cores this foretells at most %.0f times one\n",
+                    100 * scaling.serial, scaling.gain_of(64));
+    else if (scaling.gain > 0)
+        std::printf("%u threads / 1: %.2f; of %u processes at once: %.2f\n", row.threads,
+                    scaling.gain, row.threads, scaling.of_apart);
 }
 
 }  // namespace
@@ -90,15 +101,7 @@ void print_rows(const std::vector<Row>& rows) {
                 "%u thread%s: bundle / (a) %.1f, bundle / best of (a), (b), (c) %.1f (%s)\n",
                 row.threads, row.threads > 1 ? "s" : "", ratios.to_lines, ratios.to_best,
                 ratios.best.c_str());
-        const Scaling scaling = scaling_of(rows, row);
-        if (scaling.gain > 0 && scaling.gain <= 1)
-            std::printf(
-                "%u threads / 1: %.2f; no second core was free, or the work does not divide\n",
-                row.threads, scaling.gain);
-        else if (scaling.gain > 0)
-            std::printf(
-                "%u threads / 1: %.2f, so %.1f %% serial; on 64 cores this foretells %.0f\n",
-                row.threads, scaling.gain, 100 * scaling.serial, scaling.gain_of(64));
+        print_scaling(row, scaling_of(rows, row));
     }
     std::fflush(stdout);
 }
@@ -128,7 +131,8 @@ void write_json(const std::string& file, const std::vector<Row>& rows) {
             entry["ratio_to_best"] = ratios.to_best > 0 ? Json(ratios.to_best) : Json();
             entry["best"] = ratios.best;
             entry["gain_of_threads"] = scaling.gain > 0 ? Json(scaling.gain) : Json();
-            entry["serial_share"] = scaling.gain > 0 ? Json(scaling.serial) : Json();
+            entry["gain_of_apart"] = scaling.of_apart > 0 ? Json(scaling.of_apart) : Json();
+            entry["serial_share"] = median(row.serial);
         }
         json["rows"].push_back(std::move(entry));
     }

@@ -18,6 +18,7 @@ struct Row {
     std::uint64_t lines = 0;        ///< of one repetition
     std::vector<double> rates;      ///< lines a second, one a repetition
     std::vector<double> hit_rates;  ///< hits a second
+    std::vector<double> serial;     ///< share of the time that more threads would not shorten
     double bytes_per_patch = 0;     ///< at the peak, of patches and sides; 0: not measured
 
     double rate() const;

@@ -70,6 +70,7 @@ struct Balance {
 
 struct Seconds {
     double load = 0, patches = 0, first_shot = 0, global = 0, gather = 0, output = 0, total = 0;
+    double serial = 0;  ///< of global: what no further thread would shorten
 };
 
 /// Everything a solve returns. Arrays per band lie together: radiosity[patch * bands + band].

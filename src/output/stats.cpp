@@ -53,6 +53,7 @@ Json seconds_of(const Seconds& seconds) {
             {"patches", seconds.patches},
             {"first_shot", seconds.first_shot},
             {"global", seconds.global},
+            {"serial", seconds.serial},
             {"gather", seconds.gather},
             {"output", seconds.output},
             {"total", seconds.total}};

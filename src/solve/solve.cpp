@@ -60,9 +60,11 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
 
     // Send what is left unshot along global lines, or by a reference method.
     Watch global_watch;
+    const double loops_before = seconds_in_loops();
     TransferState state = dark_state(patches, plan.watts_per_quantum);
     PassResult pass = carry(run, direct, state);
     seconds.global = global_watch.seconds();
+    seconds.serial = seconds.global - (seconds_in_loops() - loops_before);
 
     // Spread what is left, and turn quanta into watts.
     Watch gather_watch;
