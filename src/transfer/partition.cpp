@@ -83,7 +83,7 @@ HWY_EXPORT(put_pairs);
 HWY_EXPORT(apply_halves);
 
 constexpr std::size_t halves_a_chunk = 512;
-constexpr std::size_t halves_a_worker = 1 << 19;
+constexpr std::size_t halves_a_worker = 1 << 20;
 
 // Ranges of which the bank's share stays in a worker's cache, but never so many that their open
 // chunks take more than the halves do.

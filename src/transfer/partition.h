@@ -16,7 +16,7 @@ struct Half {
 /// Lets one bank serve any number of workers without locks, where banks of their own would take too
 /// much: workers put the halves of their tiles' pairs into buckets, one a range of patches, and
 /// after a round of tiles every range is added up by one of them. Sums of integers are the same in
-/// whatever order. Memory: about 4 MiB a worker.
+/// whatever order. Memory: about 8 MiB a worker.
 class Partition {
 public:
     Partition(std::size_t patches, std::uint32_t bands, unsigned workers);
@@ -33,7 +33,7 @@ public:
     void apply(const TransferState& state, Bank& bank, unsigned threads);
 
     /// About what it takes.
-    static std::uint64_t bytes(unsigned workers) { return workers * (std::uint64_t(5) << 20); }
+    static std::uint64_t bytes(unsigned workers) { return workers * (std::uint64_t(9) << 20); }
 
     /// Set in `to`: the line does not leave there. Set in `from`: the rest counts what comes from
     /// outside the exchange.

@@ -83,7 +83,7 @@ TEST_CASE("equal bits whether workers have banks of their own or share one") {
             settings.bundles = 12;
             settings.threads = threads;
             settings.first_shot_rays = 30000;
-            settings.max_memory = std::uint64_t(300) << 20;
+            settings.max_memory = std::uint64_t(340) << 20;
             REQUIRE(Banks::count(patches.count(), 3, threads, bank_limit(settings)) ==
                     (threads < 16 ? threads : 1));
             Solution solution = solve(scene, patches, settings);
