@@ -42,13 +42,29 @@ void add(Emitters& emitters, const Emitter& piece, double share,
 void close(Emitters& emitters) {
     for (double& up_to : emitters.up_to)
         up_to /= emitters.total;
+    // Where the search of each of as many equal steps begins.
+    const std::size_t count = emitters.pieces.size();
+    emitters.guide.resize(count);
+    std::size_t piece = 0;
+    for (std::size_t step = 0; step < count; ++step) {
+        const double at = static_cast<double>(step) / static_cast<double>(count);
+        while (piece + 1 < count && emitters.up_to[piece] <= at)
+            ++piece;
+        emitters.guide[step] = static_cast<std::uint32_t>(piece);
+    }
 }
 
 }  // namespace
 
 std::size_t Emitters::choose(double at) const {
-    auto piece = std::upper_bound(up_to.begin(), up_to.end(), at) - up_to.begin();
-    return std::min(static_cast<std::size_t>(piece), pieces.size() - 1);
+    const auto step = static_cast<std::size_t>(at * static_cast<double>(guide.size()));
+    std::size_t piece = guide[std::min(step, guide.size() - 1)];
+    // Rounding may have begun a step too far.
+    while (piece > 0 && up_to[piece - 1] > at)
+        --piece;
+    while (piece + 1 < pieces.size() && up_to[piece] <= at)
+        ++piece;
+    return piece;
 }
 
 Emitters emitters_of(const Scene& scene, const Patches& patches,

@@ -67,13 +67,25 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
     const Sobol sobol(key);
     const RayQuanta quanta = ray_quanta(emitters, rays);
     const std::uint32_t bands = emitters.bands;
-    auto shoot = [&](std::uint64_t ray, unsigned worker) {
+    // The normal of the surface that was last shot from: rays choose among patches, which most
+    // often lie on few surfaces.
+    struct Last {
+        const Emitter* emitter = nullptr;
+        glm::dvec3 normal{0};
+    };
+    auto normal_of = [&](const Emitter& emitter, Last& last) -> const glm::dvec3& {
+        if (!last.emitter || last.emitter->surface != emitter.surface ||
+            last.emitter->back != emitter.back)
+            last = {&emitter, emitter_normal(run.scene, emitter)};
+        return last.normal;
+    };
+    auto shoot = [&](std::uint64_t ray, unsigned worker, Last& last) {
         std::array<double, Sobol::dimensions> p = sobol.point(static_cast<std::uint32_t>(ray));
         std::size_t piece = emitters.choose(p[0]);
         const Emitter& emitter = emitters.pieces[piece];
         SurfaceHit hit =
             run.rays->closest(point_on(run.scene, emitter, p[1], p[2]),
-                              cosine_direction(emitter_normal(run.scene, emitter), p[3], p[4]),
+                              cosine_direction(normal_of(emitter, last), p[3], p[4]),
                               std::numeric_limits<double>::infinity(), emitter.surface);
         std::uint32_t patch = patch_of(run.scene, run.patches, hit);
         // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
@@ -97,8 +109,9 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
         parallel_for(run.plan.threads, count, 2048,
                      [&](std::size_t begin, std::size_t end, unsigned worker) {
                          DenormalsOff guard;
+                         Last last;
                          for (std::size_t k = begin; k < end; ++k)
-                             shoot(done + k, worker);
+                             shoot(done + k, worker, last);
                      });
         done += count;
         if (!go_on(static_cast<double>(done) / static_cast<double>(rays)))
