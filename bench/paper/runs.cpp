@@ -8,7 +8,7 @@
 #include "reference/exact_factors.h"
 #include "reference/matrix.h"
 #include "solve/first_shot.h"
-#include "solve/gather.h"
+#include "solve/solution.h"
 
 namespace parallux::paper {
 
@@ -132,7 +132,8 @@ Twofold follow_and_count(const Room& room, const SolveSettings& settings) {
                        return true;
                    });
     Twofold result;
-    result.followed = gather(run, direct, pass, state).radiosity;
+    end_pass(run, direct, state, pass);
+    result.followed = solution_of(run, direct, pass).radiosity;
     const std::vector<double> emission(patches.emission.begin(), patches.emission.end());
     result.counted = counted.irradiance(emission, 0);
     for (std::size_t patch = 0; patch < patches.count(); ++patch)

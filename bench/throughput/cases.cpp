@@ -69,6 +69,7 @@ SolveSettings Case::settings(unsigned threads) const {
     settings.first_shot = FirstShot::off;
     settings.bundles = bundles;
     settings.line_spacing = spacing;
+    settings.gather_share = 0;
     settings.batch = 16;  // what a run of the usual length has
     settings.threads = threads;
     return settings;

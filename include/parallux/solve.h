@@ -40,7 +40,9 @@ struct SolveSettings {
     double line_spacing = 0;     ///< δ, metres; 0: from lines_per_patch
     double lines_per_patch = 4;  ///< c: δ² = mean patch area / c
     std::uint32_t batch = 0;  ///< bundles (or as many lines) from one snapshot; 0: of bundles up to
-                              ///< min(16, bundles / 64), of lines one after the other
+                              ///< min(16, those that pass / 256), of lines one after the other
+    /// Share of the bundles that gather once the others have passed, 0 … 1; negative: chosen.
+    double gather_share = -1;
     DirectionSet directions = DirectionSet::lattice;
     std::uint64_t seed = 1;
     unsigned threads = 0;          ///< 0: all

@@ -97,7 +97,7 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["average_nonempty_list"] = ratio(hits, static_cast<double>(counts.nonempty));
     stats["leaks"] = solution.leaks;
     stats["seconds"] = seconds_of(solution.seconds);
-    stats["lines_per_second"] = ratio(lines, solution.seconds.global);
+    stats["lines_per_second"] = ratio(lines, solution.seconds.global + solution.seconds.gather);
     stats["peak_memory_bytes"] = peak_memory();
     stats["energy"] = energy(solution.energy);
     // Not estimated yet: null rather than a number that nobody has measured.

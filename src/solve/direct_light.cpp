@@ -57,7 +57,7 @@ void settle(const Run& run, DirectLight& direct) {
                 direct.exitance[k] = static_cast<float>(unit * static_cast<double>(unshot));
         }
         if (direct.arrived)
-            run.banks.clear(patch);
+            run.banks.clear_patch(patch);
     };
     parallel_for(run.plan.threads, patches.count(), 4096,
                  [&](std::size_t begin, std::size_t end, unsigned worker) {

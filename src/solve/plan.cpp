@@ -79,6 +79,30 @@ std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& setti
         std::min(wanted, std::floor(static_cast<double>(bundles) / 8)));
 }
 
+double mean_reflectance(const Patches& patches) {
+    double area = 0, reflecting = 0;
+    for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
+        area += patches.area[k / patches.bands];
+        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
+    }
+    return reflecting / area;
+}
+
+// The pass only has to tell the gather roughly how bright everything is, because its error is
+// smoothed by one more bounce: three tenths of the bundles, but as many as the bounces need.
+std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& settings,
+                                std::uint64_t bundles) {
+    const double all = static_cast<double>(bundles);
+    if (settings.method != Method::bundles)
+        return 0;
+    if (settings.gather_share >= 0)
+        return std::min(static_cast<std::uint64_t>(settings.gather_share * all), bundles - 1);
+    if (bundles < 64)
+        return 0;
+    const double bounces = 100 / (1 - mean_reflectance(patches));
+    return static_cast<std::uint64_t>(all - std::min(std::max(0.3 * all, bounces), 0.5 * all));
+}
+
 bool follows_lines(const SolveSettings& settings) {
     return settings.method == Method::lines || settings.method == Method::matrix;
 }
@@ -127,9 +151,10 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
         plan.cell = disc / static_cast<double>(plan.lines_a_unit);
     }
+    plan.gathering = gathering_bundles(patches, settings, plan.bundles);
     if (in_batches(settings))
-        plan.closing = closing_bundles(patches, settings, plan.bundles);
-    std::uint64_t emitting = plan.bundles - plan.closing;
+        plan.closing = closing_bundles(patches, settings, plan.passing());
+    std::uint64_t emitting = plan.passing() - plan.closing;
     if (follows_lines(settings)) {
         // n_i = N A_i / (2 π R²) exits, so that an exit carries 2 π R² E / N.
         std::uint64_t lines = std::min(plan.lines, emitting * plan.lines_a_unit);
@@ -143,18 +168,9 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
     plan.batch = settings.batch;
     if (settings.method == Method::bundles && settings.batch == 0)
         plan.batch =
-            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.bundles / 64, 1, 16));
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.passing() / 256, 1, 16));
     if (plan.batch > 0)
         limit_batch(disc / plan.cell, plan);
-}
-
-double mean_reflectance(const Patches& patches) {
-    double area = 0, reflecting = 0;
-    for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
-        area += patches.area[k / patches.bands];
-        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
-    }
-    return reflecting / area;
 }
 
 // The methods that send single rays from patches: a thousand a patch where nothing is said.
@@ -241,9 +257,10 @@ struct Footprint {
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
-    // Radiosity, irradiance and crossings beside one bank.
+    // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.
     std::uint64_t gather() const {
-        return Banks::bytes_a_bank(count, bands) + count * (bands * 8 + 8);
+        return all_banks() + direct() + count * (bands * 4 + 8) +
+               count * std::max(lanes(bands) * 4, bands * 4);
     }
 };
 

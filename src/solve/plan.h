@@ -20,11 +20,15 @@ struct Plan {
     double cell = 0;                 ///< area across its direction that one line stands for, m²
     double emission_cell = 0;        ///< an exit carries emission_cell · E over the whole run
     std::uint32_t batch = 1;         ///< 0: lines one after the other
-    std::uint64_t closing = 0;       ///< of the bundles: the last ones, that carry no new emission
+    std::uint64_t gathering = 0;     ///< of the bundles: the last ones, the closing gather
+    std::uint64_t closing = 0;       ///< of the others: the last ones, that carry no new emission
     LineSphere sphere;
     double watts_per_quantum = 1;
     double highest_reflectance = 0;
     std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take
+
+    /// Bundles of the unshot/accumulated pass.
+    std::uint64_t passing() const { return bundles - gathering; }
 };
 
 /// Settles every number from the scene, its patches and the settings. Throws Fault::usage for

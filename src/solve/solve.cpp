@@ -6,11 +6,12 @@
 #include "reference/matrix.h"
 #include "reference/particles.h"
 #include "reference/progressive.h"
+#include "solve/closing_gather.h"
 #include "solve/first_shot.h"
-#include "solve/gather.h"
 #include "solve/global_pass.h"
 #include "solve/in_order_pass.h"
 #include "solve/run.h"
+#include "solve/solution.h"
 
 // M. Sbert and X. Pueyo, A Global Algorithm for Linear Radiosity (LSI-93-37-R, 1993): as printed,
 // in parallel form over bundles of parallel lines, and beside the methods it is judged against.
@@ -62,11 +63,13 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     Watch global_watch;
     TransferState state = dark_state(patches, plan.watts_per_quantum);
     PassResult pass = carry(run, direct, state);
+    end_pass(run, direct, state, pass);
     seconds.global = global_watch.seconds();
 
-    // Spread what is left, and turn quanta into watts.
+    // Gather along fresh lines what all patches send by then, and turn it into watts.
     Watch gather_watch;
-    Solution solution = gather(run, direct, pass, state);
+    closing_gather(run, state, pass);
+    Solution solution = solution_of(run, direct, pass);
     solution.seconds = seconds;
     solution.seconds.gather = gather_watch.seconds();
     return solution;
