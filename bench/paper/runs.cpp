@@ -7,8 +7,9 @@
 #include "reference/error_theory.h"
 #include "reference/exact_factors.h"
 #include "reference/matrix.h"
+#include "solve/end_pass.h"
+#include "solve/estimate.h"
 #include "solve/first_shot.h"
-#include "solve/solution.h"
 
 namespace parallux::paper {
 
@@ -133,7 +134,9 @@ Twofold follow_and_count(const Room& room, const SolveSettings& settings) {
                    });
     Twofold result;
     end_pass(run, direct, state, pass);
-    result.followed = solution_of(run, direct, pass).radiosity;
+    Estimate estimate(patches);
+    estimate.add(run, direct, pass);
+    result.followed = estimate.solution(plan).radiosity;
     const std::vector<double> emission(patches.emission.begin(), patches.emission.end());
     result.counted = counted.irradiance(emission, 0);
     for (std::size_t patch = 0; patch < patches.count(); ++patch)

@@ -68,6 +68,10 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
              << solution.threads << " threads";
     text << '\n';
     text << "energy   " << energy(solution.energy) << '\n';
+    if (solution.groups > 1)
+        text << "error    " << std::setprecision(3) << 100 * solution.relative_rms
+             << " % relative RMS, below " << 100 * solution.relative_rms_bound
+             << " % with 95 % confidence\n";
     text << "leaks    " << solution.leaks << '\n';
     text << "time     " << std::fixed << std::setprecision(2) << solution.seconds.total << " s\n";
     for (const std::filesystem::path& file : options.outputs())

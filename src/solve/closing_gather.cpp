@@ -97,23 +97,25 @@ void closing_gather(const Run& run, TransferState& state, PassResult& pass) {
     const BundleSettings lattice{mix64(run.settings.seed ^ gather_key), plan.gathering,
                                  run.settings.directions, plan.spacing};
     constexpr std::uint64_t at_once = 16;
-    std::uint64_t done = 0, lines = 0;
+    std::uint64_t done = 0;
     while (done < plan.gathering) {
         const std::uint64_t count = std::min(at_once, plan.gathering - done);
         load_exits(run, emission, pass, unit, state);
         sweep.bundles(lattice, done, static_cast<std::uint32_t>(count));
         done += count;
-        for (WorkerTotals& totals : run.banks.all_totals()) {
-            lines += totals.counts.lines;
+        for (WorkerTotals& totals : run.banks.all_totals())
             pass.counts += std::exchange(totals.counts, {});
-        }
         if (!run.listener.go_on(
-                "gather", static_cast<double>(done) / static_cast<double>(plan.gathering), lines))
+                "bundles",
+                static_cast<double>(plan.passing() + done) / static_cast<double>(plan.bundles),
+                pass.counts.lines))
             break;
     }
     pass.bundles += done;
     pass.whole = done == plan.gathering;
     state.carried = AlignedArray<std::int32_t>();
+    for (WorkerTotals& totals : run.banks.all_totals())
+        totals = {};
     take_means(run, unit, pass);
 }
 

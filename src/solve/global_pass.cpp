@@ -86,7 +86,7 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
         merge_for(batch);
         if (!run.listener.go_on(
                 bundles ? "bundles" : "lines",
-                static_cast<double>(result.bundles) / static_cast<double>(plan.passing()),
+                static_cast<double>(result.bundles) / static_cast<double>(plan.bundles),
                 result.counts.lines))
             break;
     }

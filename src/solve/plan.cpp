@@ -103,6 +103,19 @@ std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& set
     return static_cast<std::uint64_t>(all - std::min(std::max(0.3 * all, bounces), 0.5 * all));
 }
 
+// Groups whose spread tells the error of their mean: eight, if each has bundles enough to be
+// without a bias of its own, which no spread would show.
+std::uint32_t groups_of(const Patches& patches, const SolveSettings& settings,
+                        std::uint64_t bundles) {
+    constexpr std::uint32_t usual = 8;
+    if (settings.method != Method::bundles)
+        return 1;
+    if (settings.groups > 0)
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.groups, bundles));
+    const double enough = usual * 80 / (1 - mean_reflectance(patches));
+    return static_cast<double>(bundles) >= enough && settings.gather_share != 0 ? usual : 1;
+}
+
 bool follows_lines(const SolveSettings& settings) {
     return settings.method == Method::lines || settings.method == Method::matrix;
 }
@@ -151,6 +164,8 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
         plan.cell = disc / static_cast<double>(plan.lines_a_unit);
     }
+    plan.groups = groups_of(patches, settings, plan.bundles);
+    plan.bundles = (plan.bundles - 1) / plan.groups + 1;
     plan.gathering = gathering_bundles(patches, settings, plan.bundles);
     if (in_batches(settings))
         plan.closing = closing_bundles(patches, settings, plan.passing());
@@ -187,7 +202,7 @@ void plan_local_rays(const Patches& patches, const SolveSettings& settings, Plan
 // eighth of the lines' exits, and four hundred meet a patch of mean size at least.
 std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
     double area = mean_area(patches) * static_cast<double>(patches.count());
-    double exits = static_cast<double>(plan.bundles) * area / (2 * plan.cell);
+    double exits = static_cast<double>(plan.groups * plan.bundles) * area / (2 * plan.cell);
     double rays = std::max(0.125 * exits, 400.0 * static_cast<double>(patches.count()));
     return static_cast<std::uint64_t>(std::min(rays, 4.0e9));
 }
@@ -236,6 +251,11 @@ struct Footprint {
     std::uint64_t direct() const {
         return count * ((local ? bands * 4 : 0) + (settings.shots > 0 ? bands * 4 : 0));
     }
+    // Mean and spread of the groups before.
+    std::uint64_t groups() const {
+        const bool several = settings.method == Method::bundles && settings.groups != 1;
+        return several ? count * (bands * 8 + 8) : 0;
+    }
     // The cells that send, with their power.
     std::uint64_t first_shot() const {
         std::uint64_t cells = 0;
@@ -245,21 +265,21 @@ struct Footprint {
                                  [](float emission) { return emission > 0; });
         bool all = settings.shots > 0 || settings.method == Method::progressive ||
                    settings.method == Method::particles || settings.first_shot == FirstShot::exact;
-        return all_banks() + cells * (sizeof(Emitter) + bands * 8 + 8) +
+        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 8 + 8) +
                (all ? count * (100 + bands * 12) : 0);
     }
     // What was sent, what exits carry, pairs on their way. A projection holds corners, and each
     // surface in a tile or two.
     std::uint64_t pass() const {
         std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
-        return all_banks() + direct() + count * (bands * 8 + lanes(bands) * 4) +
+        return all_banks() + direct() + groups() + count * (bands * 8 + lanes(bands) * 4) +
                (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
     // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.
     std::uint64_t gather() const {
-        return all_banks() + direct() + count * (bands * 4 + 8) +
+        return all_banks() + direct() + groups() + count * (bands * 4 + 8) +
                count * std::max(lanes(bands) * 4, bands * 4);
     }
 };
@@ -323,9 +343,9 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     plan.sphere = line_sphere(scene, settings.sphere_radius);
     for (float reflectance : patches.reflectance)
         plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
-    plan.watts_per_quantum =
-        quantum(power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
     plan_lines(patches, settings, plan);
+    plan.watts_per_quantum =
+        quantum(plan.groups * power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
     plan.first_shot = settings.first_shot;
     bool local = settings.method == Method::progressive || settings.method == Method::particles;
     if (plan.first_shot == FirstShot::automatic)
@@ -333,9 +353,11 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
             local || settings.method == Method::matrix ? FirstShot::off : FirstShot::rays;
     std::uint64_t rays =
         settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
+    rays = (rays - 1) / plan.groups + 1;
     plan.shot_rays = static_cast<double>(rays);
     if (plan.first_shot == FirstShot::rays && emits(patches))
         plan.first_shot_rays = rays;
+    plan.shoot_each = plan.first_shot_rays > 0 || settings.shots > 0;
     if (local)
         plan_local_rays(patches, settings, plan);
     return plan;

@@ -11,9 +11,11 @@ namespace parallux {
 struct Plan {
     unsigned threads = 1;
     FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
-    std::uint64_t first_shot_rays = 0;
+    std::uint64_t first_shot_rays = 0;      ///< of a group
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have
-    std::uint64_t bundles = 0;       ///< D; for independent lines, of lines_a_unit each
+    std::uint32_t groups = 1;        ///< independent runs that the result is the mean of
+    bool shoot_each = true;          ///< the first shots of all groups differ
+    std::uint64_t bundles = 0;       ///< D of a group; for independent lines, of lines_a_unit each
     std::uint64_t lines = 0;         ///< independent lines in all, or particles
     std::uint64_t lines_a_unit = 0;  ///< independent lines that stand for one bundle
     double spacing = 0;              ///< δ, metres

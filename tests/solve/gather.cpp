@@ -1,51 +1,33 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "parallux/solve.h"
-#include "reference/exact_factors.h"
-#include "support/hand_made.h"
-#include "support/seeds.h"
+#include "support/bare_room.h"
 
 using namespace parallux;
 using namespace parallux::test;
 
 namespace {
 
-// Unequal walls, a lamp at one end, nothing in between: exact factors in closed form.
-struct BareRoom {
-    Scene scene = room({grey(0.5, 1), grey(0.3), grey(0.6), grey(0.5), grey(0.7), grey(0.4)}, 4,
-                       glm::dvec3(0), glm::dvec3(1.5, 1, 0.75));
-    Patches patches = make_patches(scene);
-    Eigen::VectorXd truth = exact_radiosity(exact_factors(scene, patches), patches);
-
-    // Area-weighted quadratic errors, a run each.
-    Sample quadratic_error(const SolveSettings& settings, int seeds) const {
-        Sample errors;
-        for (const std::vector<float>& run : runs(scene, patches, settings, seeds, 1)) {
-            double sum = 0, area = 0;
-            for (std::size_t k = 0; k < run.size(); ++k) {
-                sum += patches.area[k] * std::pow(run[k] - truth[Eigen::Index(k)], 2);
-                area += patches.area[k];
-            }
-            errors.add(sum / area);
-        }
-        return errors;
-    }
-};
+Sample quadratic_errors(const BareRoom& room, const SolveSettings& settings, int seeds) {
+    Sample errors;
+    for (const std::vector<float>& run : runs(room.scene, room.patches, settings, seeds, 1))
+        errors.add(room.quadratic_error(run));
+    return errors;
+}
 
 }  // namespace
 
 TEST_CASE("at equal lines the closing gather divides the quadratic error by more than two") {
     // By three standard errors of both means. Fails when the gather divides by the expected number
     // of exits (planted: area / (2 δ²) a bundle for the count).
-    const BareRoom room;
+    const BareRoom room = unequal_room();
     SolveSettings settings;
     settings.first_shot = FirstShot::exact;
     settings.bundles = 1024;
-    const Sample gathered = room.quadratic_error(settings, 24);
+    settings.groups = 1;
+    const Sample gathered = quadratic_errors(room, settings, 24);
     settings.gather_share = 0;
-    const Sample passed = room.quadratic_error(settings, 24);
+    const Sample passed = quadratic_errors(room, settings, 24);
     MESSAGE("quadratic error falls by ", passed.mean() / gathered.mean());
     CHECK(passed.mean() - 3 * passed.standard_error() >
           2 * (gathered.mean() + 3 * gathered.standard_error()));
@@ -55,7 +37,7 @@ TEST_CASE("the closing gather has the exact solution for its mean") {
     // Every patch below the Šidák bound over 64 seeds. Fails when the first shot's light is
     // gathered too, and when the emission is not gathered though no first shot sent it (both
     // planted and seen).
-    const BareRoom room;
+    const BareRoom room = unequal_room();
     const double bound = sidak_bound(4 * room.patches.count(), 64);
     for (DirectionSet set : {DirectionSet::lattice, DirectionSet::random})
         for (FirstShot shot : {FirstShot::off, FirstShot::exact}) {
@@ -66,8 +48,7 @@ TEST_CASE("the closing gather has the exact solution for its mean") {
             settings.shots = shot == FirstShot::exact && set == DirectionSet::lattice ? 20 : 0;
             settings.lines_per_patch = 1;
             const std::vector<Sample> samples = over_seeds(room.scene, room.patches, settings, 64);
-            CHECK(worst_z(samples, [&](std::size_t k) { return room.truth[Eigen::Index(k)]; }) <
-                  bound);
+            CHECK(worst_z(samples, [&](std::size_t k) { return room.truth(k); }) < bound);
         }
 }
 
@@ -75,7 +56,7 @@ TEST_CASE("the gather moves no energy") {
     // The balance is the pass's own, to the last quantum: a run of as many bundles without a
     // gather has it too. Fails when the emission is spread over the gathering bundles as well
     // (planted).
-    const BareRoom room;
+    const BareRoom room = unequal_room();
     SolveSettings settings;
     settings.bundles = 200;
     settings.gather_share = 0.5;

@@ -11,8 +11,4 @@ namespace parallux {
 /// see Leftover. Gives back the memory of what was sent and carried.
 void end_pass(const Run& run, const DirectLight& direct, TransferState& state, PassResult& pass);
 
-/// The result of a run: irradiance H = direct + the pass's, radiosity B = E + ρ H. Takes the memory
-/// of direct light and pass.
-Solution solution_of(const Run& run, DirectLight& direct, PassResult& pass);
-
 }  // namespace parallux

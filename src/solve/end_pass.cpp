@@ -1,11 +1,8 @@
-#include "solve/solution.h"
+#include "solve/end_pass.h"
 
-#include <bit>
 #include <cmath>
-#include <string>
 
 #include "parallel.h"
-#include "random.h"
 #include "solve/run.h"
 
 namespace parallux {
@@ -45,14 +42,6 @@ Balance balance_of(const Run& run, const DirectLight& direct, const TransferStat
     return balance;
 }
 
-std::uint64_t hash_of(const Solution& solution) {
-    std::uint64_t hash = mix64(solution.bands);
-    for (const auto* values : {&solution.radiosity, &solution.irradiance})
-        for (float value : *values)
-            hash = mix64(hash ^ std::bit_cast<std::uint32_t>(value)) + 0x9e3779b97f4a7c15ull;
-    return hash;
-}
-
 }  // namespace
 
 void end_pass(const Run& run, const DirectLight& direct, TransferState& state, PassResult& pass) {
@@ -87,43 +76,6 @@ void end_pass(const Run& run, const DirectLight& direct, TransferState& state, P
                              finish(first, last, &factors[group * bands]);
                          });
                  });
-}
-
-Solution solution_of(const Run& run, DirectLight& direct, PassResult& pass) {
-    const Patches& patches = run.patches;
-    const Plan& plan = run.plan;
-    Solution solution;
-    solution.bands = patches.bands;
-    solution.energy = std::move(pass.balance);
-    solution.crossings = std::move(pass.crossings);
-    solution.irradiance = std::move(pass.irradiance);
-    solution.radiosity.resize(patches.reflectance.size());
-    parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     for (std::size_t k = begin; k < end; ++k) {
-                         if (!direct.irradiance.empty())
-                             solution.irradiance[k] += direct.irradiance[k];
-                         solution.radiosity[k] = static_cast<float>(
-                             patches.emission[k] +
-                             static_cast<double>(patches.reflectance[k]) * solution.irradiance[k]);
-                     }
-                 });
-    direct.irradiance = std::vector<float>();
-    solution.hash = hash_of(solution);
-    solution.counts = pass.counts;
-    solution.leaks = is_closed(run.scene) ? pass.counts.odd : 0;
-    solution.warnings = pass.warnings;
-    if (solution.leaks > 0)
-        solution.warnings.push_back(std::to_string(solution.leaks) +
-                                    " lines met a closed scene an odd number of times");
-    solution.bundles = pass.bundles;
-    solution.line_spacing = plan.spacing;
-    solution.batch = plan.batch;
-    solution.threads = plan.threads;
-    solution.first_shot_rays = plan.first_shot_rays;
-    solution.shots = direct.shots;
-    solution.partial = !pass.whole || direct.done < 1;
-    return solution;
 }
 
 }  // namespace parallux
