@@ -7,8 +7,9 @@
 #include "reference/error_theory.h"
 #include "reference/exact_factors.h"
 #include "reference/matrix.h"
+#include "solve/end_pass.h"
+#include "solve/estimate.h"
 #include "solve/first_shot.h"
-#include "solve/gather.h"
 
 namespace parallux::paper {
 
@@ -132,7 +133,10 @@ Twofold follow_and_count(const Room& room, const SolveSettings& settings) {
                        return true;
                    });
     Twofold result;
-    result.followed = gather(run, direct, pass, state).radiosity;
+    end_pass(run, direct, state, pass);
+    Estimate estimate(patches);
+    estimate.add(run, direct, pass);
+    result.followed = estimate.solution(plan).radiosity;
     const std::vector<double> emission(patches.emission.begin(), patches.emission.end());
     result.counted = counted.irradiance(emission, 0);
     for (std::size_t patch = 0; patch < patches.count(); ++patch)

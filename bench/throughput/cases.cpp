@@ -70,6 +70,8 @@ SolveSettings Case::settings(unsigned threads) const {
     settings.first_shot = FirstShot::off;
     settings.bundles = bundles;
     settings.line_spacing = spacing;
+    settings.gather_share = 0;  // one run, the pass alone
+    settings.groups = 1;
     // What a run of the usual length has, and what longer ones have.
     settings.batch = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(bundles / 256, 16, 64));
     settings.threads = threads;

@@ -40,8 +40,13 @@ struct SolveSettings {
     double line_spacing = 0;     ///< δ, metres; 0: from lines_per_patch
     double lines_per_patch = 4;  ///< c: δ² = mean patch area / c
     std::uint32_t batch = 0;  ///< bundles (or as many lines) from one snapshot; 0: of bundles up to
-                              ///< min(16, bundles / 64), of very many bundles / 256 up to 64; of
-                              ///< lines one after the other
+                              ///< min(64, those that pass / 256), of lines one after the other
+    /// Share of the bundles that gather once the others have passed, 0 … 1; negative: chosen.
+    double gather_share = -1;
+    /// Independent runs, of as many bundles each, that the result is the mean of and whose spread
+    /// tells its error; 0: eight with 640 / (1 - mean reflectance) bundles or more, else 1, which
+    /// leaves the error unknown.
+    std::uint32_t groups = 0;
     DirectionSet directions = DirectionSet::lattice;
     std::uint64_t seed = 1;
     unsigned threads = 0;          ///< 0: all
@@ -78,14 +83,17 @@ struct Solution {
     std::uint32_t bands = 0;
     std::vector<float> radiosity;          ///< B, W/m²
     std::vector<float> irradiance;         ///< H, W/m²
-    std::vector<float> stderror;           ///< of B; empty when not estimated
+    std::vector<float> stderror;           ///< of B, from groups; empty when there is but one
     std::vector<std::uint64_t> crossings;  ///< lines that left each patch
     std::uint64_t hash = 0;                ///< over radiosity and irradiance alone
     Balance energy;
     LineCounts counts;
     std::uint64_t leaks = 0;  ///< closed scenes: lists of odd length; others 0
     Seconds seconds;
-    std::uint64_t bundles = 0;  ///< done; of bundles and of lines in batches
+    double relative_rms = 0;        ///< of all that does not emit, by area, from stderror
+    double relative_rms_bound = 0;  ///< what it is below with 95 % confidence
+    std::uint32_t groups = 1;       ///< done; stderror has one degree of freedom less
+    std::uint64_t bundles = 0;      ///< done; of bundles and of lines in batches
     double line_spacing = 0;
     std::uint32_t batch = 0;
     unsigned threads = 0;

@@ -167,6 +167,13 @@ void add_method(CLI::App& app, SolveSettings& s) {
     option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4]",
            [&](auto& v) { s.lines_per_patch = parse_positive("--lines-per-patch", v); })
         ->excludes(spacing);
+    option("--gather-share", "S", "Of the bundles, that gather once the others have passed [0.7]",
+           [&](auto& v) { s.gather_share = parse_real("--gather-share", v, 0, 1); });
+    option(
+        "--groups", "R",
+        "Independent parts of the bundles, whose spread tells the error; 1: unknown [8 with 640 "
+        "/ (1 - mean reflectance) bundles or more]",
+        [&](auto& v) { s.groups = static_cast<std::uint32_t>(parse_count("--groups", v, 1, 64)); });
     option("--directions", "D", "lattice or random [lattice]", [&](auto& v) {
         s.directions = parse_choice<DirectionSet>(
             "--directions", v,

@@ -62,11 +62,16 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
     text << "patches  " << patches.count() << '\n';
     text << "lines    " << counts.lines;
     text << how_followed(options.solve.method, solution);
-    if (solution.seconds.global > 0)
-        text << ", " << std::setprecision(3) << lines / solution.seconds.global / 1e6
-             << " M lines/s on " << solution.threads << " threads";
+    const double seconds = solution.seconds.global + solution.seconds.gather;
+    if (seconds > 0)
+        text << ", " << std::setprecision(3) << lines / seconds / 1e6 << " M lines/s on "
+             << solution.threads << " threads";
     text << '\n';
     text << "energy   " << energy(solution.energy) << '\n';
+    if (solution.groups > 1)
+        text << "error    " << std::setprecision(3) << 100 * solution.relative_rms
+             << " % relative RMS, below " << 100 * solution.relative_rms_bound
+             << " % with 95 % confidence\n";
     text << "leaks    " << solution.leaks << '\n';
     text << "time     " << std::fixed << std::setprecision(2) << solution.seconds.total << " s\n";
     for (const std::filesystem::path& file : options.outputs())

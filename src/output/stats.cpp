@@ -98,11 +98,20 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["average_nonempty_list"] = ratio(hits, static_cast<double>(counts.nonempty));
     stats["leaks"] = solution.leaks;
     stats["seconds"] = seconds_of(solution.seconds);
-    stats["lines_per_second"] = ratio(lines, solution.seconds.global);
+    stats["lines_per_second"] = ratio(lines, solution.seconds.global + solution.seconds.gather);
     stats["peak_memory_bytes"] = peak_memory();
     stats["energy"] = energy(solution.energy);
-    // Not estimated yet: null rather than a number that nobody has measured.
-    stats["error"] = {{"relative_rms", nullptr}, {"target", nullptr}, {"confidence", nullptr}};
+    // Of one group alone nothing is known: null rather than a number that nobody has measured.
+    stats["groups"] = solution.groups;
+    stats["error"] = {{"relative_rms", nullptr},
+                      {"relative_rms_bound", nullptr},
+                      {"target", nullptr},
+                      {"confidence", nullptr}};
+    if (solution.groups > 1) {
+        stats["error"]["relative_rms"] = solution.relative_rms;
+        stats["error"]["relative_rms_bound"] = solution.relative_rms_bound;
+        stats["error"]["confidence"] = 0.95;
+    }
     stats["solution_hash"] = hash_text(solution.hash);
     stats["partial"] = solution.partial;
     stats["version"] = PARALLUX_VERSION;

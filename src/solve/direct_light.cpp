@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "parallel.h"
 
@@ -36,6 +37,8 @@ std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_
 }
 
 void settle(const Run& run, DirectLight& direct) {
+    if (std::exchange(direct.settled, true))
+        return;
     const Patches& patches = run.patches;
     const std::uint32_t bands = patches.bands;
     if (direct.arrived)
@@ -57,7 +60,7 @@ void settle(const Run& run, DirectLight& direct) {
                 direct.exitance[k] = static_cast<float>(unit * static_cast<double>(unshot));
         }
         if (direct.arrived)
-            run.banks.clear(patch);
+            run.banks.clear_patch(patch);
     };
     parallel_for(run.plan.threads, patches.count(), 4096,
                  [&](std::size_t begin, std::size_t end, unsigned worker) {

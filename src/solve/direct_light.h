@@ -21,6 +21,7 @@ struct DirectLight {
     std::vector<float> exitance;
     std::uint64_t rays = 0;   ///< cast
     std::uint64_t shots = 0;  ///< from single patches
+    bool settled = false;     ///< settle() has been called
     double done = 1;          ///< share of the sources' rays that was cast
 };
 
@@ -31,7 +32,7 @@ std::int64_t emitted_quanta(const Run& run, std::size_t k);
 std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_t k);
 
 /// Ends the local shots: what has arrived is absorbed in part, and the rest is unshot, exactly.
-/// Clears the banks. O(patches), in parallel.
+/// Clears the banks. O(patches), in parallel; nothing the second time.
 void settle(const Run& run, DirectLight& direct);
 
 /// What the patches send of their own in the pass; `direct` must be settled and outlive it.

@@ -20,7 +20,7 @@ PassResult in_order_pass(const Run& run, DirectLight& direct, TransferState& sta
                                    const std::vector<glm::dvec3>& directions, std::uint64_t) {
             sky.clear();
             for (const glm::dvec3& direction : directions)
-                sky.push_back(sky_quanta(run.scene, run.plan, state, direction));
+                sky.push_back(sky_quanta(run.scene, state.emission.quanta, direction));
             exchange_in_order(lists, state, run.banks.of(0), run.patches, run.settings.direction,
                               sky, result.counts);
             return run.listener.go_on(

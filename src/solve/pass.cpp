@@ -37,14 +37,12 @@ double carried_quantum(const Run& run, const Emission& emission) {
     return quantum;
 }
 
-SkyQuanta sky_quanta(const Scene& scene, const Plan& plan, const TransferState& state,
-                     const glm::dvec3& direction) {
+SkyQuanta sky_quanta(const Scene& scene, double unit, const glm::dvec3& direction) {
     SkyQuanta quanta;
     Spectrum behind = scene.sky.radiance(-direction), ahead = scene.sky.radiance(direction);
-    double unit = emission_quanta(plan, state) * pi;
     for (std::uint32_t band = 0; band < scene.bands; ++band) {
-        quanta.along[band] = std::llrint(unit * behind[band]);
-        quanta.against[band] = std::llrint(unit * ahead[band]);
+        quanta.along[band] = std::llrint(unit * pi * behind[band]);
+        quanta.against[band] = std::llrint(unit * pi * ahead[band]);
     }
     return quanta;
 }

@@ -15,7 +15,10 @@ namespace parallux {
 struct PassResult {
     std::optional<Leftover> leftover;  ///< what received energy is multiplied by; absent: by
     double received = 1;               ///< this
-    std::vector<double> ambient;  ///< irradiance that unshot energy stands for, a band; empty: 0
+    std::vector<double> ambient;    ///< irradiance that unshot energy stands for, a band; empty: 0
+    Balance balance;                ///< set by end_pass(), as are
+    std::vector<float> irradiance;  ///< beside direct light, patch · bands + band
+    std::vector<std::uint64_t> crossings;  ///< lines that left each patch
     LineCounts counts;
     std::uint64_t bundles = 0;  ///< done of those planned
     double done = 1;            ///< share of the planned emission that was sent
@@ -31,9 +34,7 @@ double emission_quanta(const Plan& plan, const TransferState& state);
 /// whitest may be 1 / (1 - ρ) times as bright as all that emits, and now and then wait for an exit.
 double carried_quantum(const Run& run, const Emission& emission);
 
-/// What a line of this direction brings from the sky: its cell times π L, spread over the run as
-/// emission is.
-SkyQuanta sky_quanta(const Scene& scene, const Plan& plan, const TransferState& state,
-                     const glm::dvec3& direction);
+/// What a line of this direction brings from the sky, `unit` quanta per W/m² of π L.
+SkyQuanta sky_quanta(const Scene& scene, double unit, const glm::dvec3& direction);
 
 }  // namespace parallux

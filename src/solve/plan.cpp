@@ -79,6 +79,43 @@ std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& setti
         std::min(wanted, std::floor(static_cast<double>(bundles) / 8)));
 }
 
+double mean_reflectance(const Patches& patches) {
+    double area = 0, reflecting = 0;
+    for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
+        area += patches.area[k / patches.bands];
+        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
+    }
+    return reflecting / area;
+}
+
+// The pass only has to tell the gather roughly how bright everything is, because its error is
+// smoothed by one more bounce: three tenths of the bundles, but as many as the bounces need.
+std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& settings,
+                                std::uint64_t bundles) {
+    const double all = static_cast<double>(bundles);
+    if (settings.method != Method::bundles)
+        return 0;
+    if (settings.gather_share >= 0)
+        return std::min(static_cast<std::uint64_t>(settings.gather_share * all), bundles - 1);
+    if (bundles < 64)
+        return 0;
+    const double bounces = 100 / (1 - mean_reflectance(patches));
+    return static_cast<std::uint64_t>(all - std::min(std::max(0.3 * all, bounces), 0.5 * all));
+}
+
+// Groups whose spread tells the error of their mean: eight, if each has bundles enough to be
+// without a bias of its own, which no spread would show.
+std::uint32_t groups_of(const Patches& patches, const SolveSettings& settings,
+                        std::uint64_t bundles) {
+    constexpr std::uint32_t usual = 8;
+    if (settings.method != Method::bundles)
+        return 1;
+    if (settings.groups > 0)
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.groups, bundles));
+    const double enough = usual * 80 / (1 - mean_reflectance(patches));
+    return static_cast<double>(bundles) >= enough && settings.gather_share != 0 ? usual : 1;
+}
+
 bool follows_lines(const SolveSettings& settings) {
     return settings.method == Method::lines || settings.method == Method::matrix;
 }
@@ -91,14 +128,6 @@ bool in_batches(const SolveSettings& settings) {
 std::uint64_t machine_memory() {
     return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
            static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
-}
-
-// A 64th of the bundles up to 16. Long runs take a 256th, up to 64: light waits for no larger share
-// of the run, and merges, where the workers exchange their caches, are fewer.
-std::uint32_t usual_batch(std::uint64_t bundles) {
-    const std::uint64_t few = std::min<std::uint64_t>(bundles / 64, 16);
-    return static_cast<std::uint32_t>(
-        std::clamp<std::uint64_t>(bundles / 256, std::max<std::uint64_t>(few, 1), 64));
 }
 
 // A merge counts the exits of a batch in 32 bits.
@@ -135,9 +164,12 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
         plan.cell = disc / static_cast<double>(plan.lines_a_unit);
     }
+    plan.groups = groups_of(patches, settings, plan.bundles);
+    plan.bundles = (plan.bundles - 1) / plan.groups + 1;
+    plan.gathering = gathering_bundles(patches, settings, plan.bundles);
     if (in_batches(settings))
-        plan.closing = closing_bundles(patches, settings, plan.bundles);
-    std::uint64_t emitting = plan.bundles - plan.closing;
+        plan.closing = closing_bundles(patches, settings, plan.passing());
+    std::uint64_t emitting = plan.passing() - plan.closing;
     if (follows_lines(settings)) {
         // n_i = N A_i / (2 π R²) exits, so that an exit carries 2 π R² E / N.
         std::uint64_t lines = std::min(plan.lines, emitting * plan.lines_a_unit);
@@ -150,18 +182,10 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.emission_cell *= 2;
     plan.batch = settings.batch;
     if (settings.method == Method::bundles && settings.batch == 0)
-        plan.batch = usual_batch(plan.bundles);
+        plan.batch =
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.passing() / 256, 1, 64));
     if (plan.batch > 0)
         limit_batch(disc / plan.cell, plan);
-}
-
-double mean_reflectance(const Patches& patches) {
-    double area = 0, reflecting = 0;
-    for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
-        area += patches.area[k / patches.bands];
-        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
-    }
-    return reflecting / area;
 }
 
 // The methods that send single rays from patches: a thousand a patch where nothing is said.
@@ -178,7 +202,7 @@ void plan_local_rays(const Patches& patches, const SolveSettings& settings, Plan
 // eighth of the lines' exits, and four hundred meet a patch of mean size at least.
 std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
     double area = mean_area(patches) * static_cast<double>(patches.count());
-    double exits = static_cast<double>(plan.bundles) * area / (2 * plan.cell);
+    double exits = static_cast<double>(plan.groups * plan.bundles) * area / (2 * plan.cell);
     double rays = std::max(0.125 * exits, 400.0 * static_cast<double>(patches.count()));
     return static_cast<std::uint64_t>(std::min(rays, 4.0e9));
 }
@@ -227,6 +251,11 @@ struct Footprint {
     std::uint64_t direct() const {
         return count * ((local ? bands * 4 : 0) + (settings.shots > 0 ? bands * 4 : 0));
     }
+    // Mean and spread of the groups before.
+    std::uint64_t groups() const {
+        const bool several = settings.method == Method::bundles && settings.groups != 1;
+        return several ? count * (bands * 8 + 8) : 0;
+    }
     // The cells that send, with their power.
     std::uint64_t first_shot() const {
         std::uint64_t cells = 0;
@@ -236,21 +265,22 @@ struct Footprint {
                                  [](float emission) { return emission > 0; });
         bool all = settings.shots > 0 || settings.method == Method::progressive ||
                    settings.method == Method::particles || settings.first_shot == FirstShot::exact;
-        return all_banks() + cells * (sizeof(Emitter) + bands * 8 + 8) +
+        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 8 + 8) +
                (all ? count * (100 + bands * 12) : 0);
     }
     // What was sent, what exits carry, pairs on their way. A projection holds corners, and each
     // surface in a tile or two.
     std::uint64_t pass() const {
         std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
-        return all_banks() + direct() + count * (bands * 8 + lanes(bands) * 4) +
+        return all_banks() + direct() + groups() + count * (bands * 8 + lanes(bands) * 4) +
                (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
-    // Radiosity, irradiance and crossings beside one bank.
+    // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.
     std::uint64_t gather() const {
-        return Banks::bytes_a_bank(count, bands) + count * (bands * 8 + 8);
+        return all_banks() + direct() + groups() + count * (bands * 4 + 8) +
+               count * std::max(lanes(bands) * 4, bands * 4);
     }
 };
 
@@ -313,9 +343,9 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     plan.sphere = line_sphere(scene, settings.sphere_radius);
     for (float reflectance : patches.reflectance)
         plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
-    plan.watts_per_quantum =
-        quantum(power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
     plan_lines(patches, settings, plan);
+    plan.watts_per_quantum =
+        quantum(plan.groups * power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
     plan.first_shot = settings.first_shot;
     bool local = settings.method == Method::progressive || settings.method == Method::particles;
     if (plan.first_shot == FirstShot::automatic)
@@ -323,9 +353,11 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
             local || settings.method == Method::matrix ? FirstShot::off : FirstShot::rays;
     std::uint64_t rays =
         settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
+    rays = (rays - 1) / plan.groups + 1;
     plan.shot_rays = static_cast<double>(rays);
     if (plan.first_shot == FirstShot::rays && emits(patches))
         plan.first_shot_rays = rays;
+    plan.shoot_each = plan.first_shot_rays > 0 || settings.shots > 0;
     if (local)
         plan_local_rays(patches, settings, plan);
     return plan;

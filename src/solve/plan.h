@@ -11,20 +11,26 @@ namespace parallux {
 struct Plan {
     unsigned threads = 1;
     FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
-    std::uint64_t first_shot_rays = 0;
+    std::uint64_t first_shot_rays = 0;      ///< of a group
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have
-    std::uint64_t bundles = 0;       ///< D; for independent lines, of lines_a_unit each
+    std::uint32_t groups = 1;        ///< independent runs that the result is the mean of
+    bool shoot_each = true;          ///< the first shots of all groups differ
+    std::uint64_t bundles = 0;       ///< D of a group; for independent lines, of lines_a_unit each
     std::uint64_t lines = 0;         ///< independent lines in all, or particles
     std::uint64_t lines_a_unit = 0;  ///< independent lines that stand for one bundle
     double spacing = 0;              ///< δ, metres
     double cell = 0;                 ///< area across its direction that one line stands for, m²
     double emission_cell = 0;        ///< an exit carries emission_cell · E over the whole run
     std::uint32_t batch = 1;         ///< 0: lines one after the other
-    std::uint64_t closing = 0;       ///< of the bundles: the last ones, that carry no new emission
+    std::uint64_t gathering = 0;     ///< of the bundles: the last ones, the closing gather
+    std::uint64_t closing = 0;       ///< of the others: the last ones, that carry no new emission
     LineSphere sphere;
     double watts_per_quantum = 1;
     double highest_reflectance = 0;
     std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take
+
+    /// Bundles of the unshot/accumulated pass.
+    std::uint64_t passing() const { return bundles - gathering; }
 };
 
 /// Settles every number from the scene, its patches and the settings. Throws Fault::usage for

@@ -14,6 +14,7 @@ std::vector<float> irradiance(const Scene& scene, const Patches& patches,
                               const SolveSettings& settings) {
     SolveSettings quick;
     quick.bundles = few_bundles;
+    quick.groups = 1;
     quick.seed = settings.seed;
     quick.threads = settings.threads;
     quick.max_memory = settings.max_memory;

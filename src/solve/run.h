@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstring>
 
 #include "lines/ray_scene.h"
 #include "parallux/solve.h"
@@ -11,6 +12,12 @@ namespace parallux {
 
 class Watch {
 public:
+    /// Since it began, or since the last lap.
+    double lap() {
+        double passed = seconds();
+        start_ = std::chrono::steady_clock::now();
+        return passed;
+    }
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
@@ -25,8 +32,22 @@ public:
     Listener(const ProgressCallback& callback, double time_limit)
         : callback_(callback), time_limit_(time_limit) {}
 
+    /// What follows is one of some equal parts of the bundles, each with its own first shot.
+    void begin_part(unsigned part, unsigned parts) {
+        part_ = part;
+        parts_ = parts;
+        lines_before_ = lines_;
+    }
+
     /// `done`: share of the stage, `lines` or rays so far in it. Once false, always false.
     bool go_on(const char* stage, double done, std::uint64_t lines) {
+        if (std::strcmp(stage, "first shot") != 0) {
+            done = (part_ + done) / parts_;
+        } else if (part_ > 0) {
+            stage = stage_;
+            done = static_cast<double>(part_) / parts_;
+        }
+        lines_ = lines = lines_before_ + lines;
         // A stage begins where the one before it was last heard of.
         if (stage != stage_) {
             stage_ = stage;
@@ -47,6 +68,8 @@ private:
     double time_limit_;
     const char* stage_ = nullptr;
     Watch total_, stage_watch_, last_;
+    unsigned part_ = 0, parts_ = 1;
+    std::uint64_t lines_ = 0, lines_before_ = 0;
     bool stopped_ = false;
 };
 

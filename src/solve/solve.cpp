@@ -6,8 +6,10 @@
 #include "reference/matrix.h"
 #include "reference/particles.h"
 #include "reference/progressive.h"
+#include "solve/closing_gather.h"
+#include "solve/end_pass.h"
+#include "solve/estimate.h"
 #include "solve/first_shot.h"
-#include "solve/gather.h"
 #include "solve/global_pass.h"
 #include "solve/in_order_pass.h"
 #include "solve/run.h"
@@ -48,29 +50,54 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     Banks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
     Seconds seconds;
 
-    // Shoot the light of the sources locally.
-    Watch first_watch;
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
     Team team(plan.threads);
-    Run run{scene, patches, settings, plan, rays.get(), banks, listener};
-    DirectLight direct = first_shot(run);
-    seconds.first_shot = first_watch.seconds();
+    DirectLight direct;
+    Estimate estimate(patches);
+    for (std::uint32_t group = 0; group < plan.groups; ++group) {
+        SolveSettings own = settings;
+        own.seed = group_seed(settings.seed, group);
+        const Run run{scene, patches, own, plan, rays.get(), banks, listener};
+        listener.begin_part(group, plan.groups);
 
-    // Send what is left unshot along global lines, or by a reference method.
-    Watch global_watch;
-    const double loops_before = seconds_in_loops();
-    TransferState state = dark_state(patches, plan.watts_per_quantum);
-    PassResult pass = carry(run, direct, state);
-    seconds.global = global_watch.seconds();
-    seconds.serial = seconds.global - (seconds_in_loops() - loops_before);
+        // Shoot the light of the sources locally.
+        Watch watch;
+        if (group == 0 || plan.shoot_each)
+            direct = first_shot(run);
+        seconds.first_shot += watch.lap();
 
-    // Spread what is left, and turn quanta into watts.
-    Watch gather_watch;
-    Solution solution = gather(run, direct, pass, state);
+        // Send what is left unshot along global lines, or by a reference method.
+        const double loops_before = seconds_in_loops();
+        TransferState state = dark_state(patches, plan.watts_per_quantum);
+        PassResult pass = carry(run, direct, state);
+        end_pass(run, direct, state, pass);
+        const double passed = watch.lap();
+        seconds.global += passed;
+        seconds.serial += passed - (seconds_in_loops() - loops_before);
+
+        // Gather along fresh lines what all patches send by then.
+        closing_gather(run, state, pass);
+        if (group > 0 && !pass.whole) {
+            estimate.stop();
+            break;
+        }
+        estimate.add(run, direct, pass);
+        banks.clear(plan.threads);
+        seconds.gather += watch.lap();
+        if (listener.stopped()) {
+            if (group + 1 < plan.groups)
+                estimate.stop();
+            break;
+        }
+    }
+
+    // The groups' mean is the result, their spread its error.
+    Watch watch;
+    Solution solution = estimate.solution(plan);
+    seconds.gather += watch.lap();
     solution.seconds = seconds;
-    solution.seconds.gather = gather_watch.seconds();
     return solution;
 }
 

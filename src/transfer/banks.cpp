@@ -51,14 +51,21 @@ void Banks::scale(double factor) {
         std::int64_t scaled[max_bands];
         for (std::uint32_t band = 0; band < bands_; ++band)
             scaled[band] = std::llrint(static_cast<double>(received(patch, band)) * factor);
-        clear(patch);
+        clear_patch(patch);
         std::copy_n(scaled, bands_, &banks_[0].received[patch * lanes(bands_)]);
     }
 }
 
-void Banks::clear(std::size_t patch) {
+void Banks::clear_patch(std::size_t patch) {
     for (Bank& bank : banks_)
         std::fill_n(&bank.received[patch * lanes(bands_)], lanes(bands_), 0);
+}
+
+void Banks::clear(unsigned threads) {
+    parallel_for(threads, patches_, 1 << 14, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t patch = begin; patch < end; ++patch)
+            clear_patch(patch);
+    });
 }
 
 void Banks::join(unsigned threads) {

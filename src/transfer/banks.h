@@ -29,7 +29,9 @@ public:
     /// Multiplies all that was received.
     void scale(double factor);
     /// Sets a patch's values to 0 in all banks.
-    void clear(std::size_t patch);
+    void clear_patch(std::size_t patch);
+    /// Sets all values to 0.
+    void clear(unsigned threads);
     /// Leaves one bank, which holds the sum of all, and gives the others' memory back.
     void join(unsigned threads);
 

@@ -74,6 +74,7 @@ TEST_CASE("table and statistics have exactly the promised columns and keys") {
                                                      "lines_per_second",
                                                      "peak_memory_bytes",
                                                      "energy",
+                                                     "groups",
                                                      "error",
                                                      "solution_hash",
                                                      "partial",

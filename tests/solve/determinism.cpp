@@ -188,6 +188,7 @@ TEST_CASE("a stopped run is marked, balanced, and near the truth") {
     Patches patches = make_patches(scene);
     SolveSettings settings;
     settings.bundles = 1024;
+    settings.batch = 16;
     settings.first_shot = FirstShot::off;
     int calls = 0;
     Solution solution = solve(scene, patches, settings, [&](const Progress& progress) {

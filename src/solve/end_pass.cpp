@@ -1,11 +1,8 @@
-#include "solve/gather.h"
+#include "solve/end_pass.h"
 
-#include <bit>
 #include <cmath>
-#include <string>
 
 #include "parallel.h"
-#include "random.h"
 #include "solve/run.h"
 
 namespace parallux {
@@ -45,53 +42,32 @@ Balance balance_of(const Run& run, const DirectLight& direct, const TransferStat
     return balance;
 }
 
-std::uint64_t hash_of(const Solution& solution) {
-    std::uint64_t hash = mix64(solution.bands);
-    for (const auto* values : {&solution.radiosity, &solution.irradiance})
-        for (float value : *values)
-            hash = mix64(hash ^ std::bit_cast<std::uint32_t>(value)) + 0x9e3779b97f4a7c15ull;
-    return hash;
-}
-
 }  // namespace
 
-Solution gather(const Run& run, DirectLight& direct, const PassResult& pass, TransferState& state) {
+void end_pass(const Run& run, const DirectLight& direct, TransferState& state, PassResult& pass) {
     const Patches& patches = run.patches;
-    const Plan& plan = run.plan;
     const std::uint32_t bands = patches.bands;
-    Solution solution;
-    solution.bands = bands;
-    solution.energy = balance_of(run, direct, state);
+    pass.balance = balance_of(run, direct, state);
+    state.sent = std::vector<std::int64_t>();
+    state.carried = AlignedArray<std::int32_t>();
     std::vector<double> factors(bands, pass.received);
     if (pass.leftover)
         factors = pass.leftover->factors(state, run.banks, pass.done);
-
-    // The state has done its work: its memory is the result's.
-    run.banks.join(plan.threads);
-    state.sent = std::vector<std::int64_t>();
-    state.carried = AlignedArray<std::int32_t>();
-    solution.irradiance = std::move(direct.irradiance);
-    solution.irradiance.resize(patches.reflectance.size(), 0);
-    solution.radiosity.resize(patches.reflectance.size());
-    solution.crossings.resize(patches.count());
+    pass.irradiance.resize(patches.reflectance.size());
+    pass.crossings.resize(patches.count());
     auto finish = [&](std::size_t first, std::size_t last, const double* factor) {
         for (std::size_t patch = first; patch < last; ++patch) {
             const double unit = state.watts_per_quantum / patches.area[patch];
             for (std::uint32_t band = 0; band < bands; ++band) {
-                const std::size_t k = patch * bands + band;
-                double irradiance =
-                    solution.irradiance[k] +
-                    factor[band] * static_cast<double>(run.banks.received(patch, band)) * unit;
-                if (!pass.ambient.empty())
-                    irradiance += pass.ambient[band];
-                solution.irradiance[k] = static_cast<float>(irradiance);
-                solution.radiosity[k] = static_cast<float>(
-                    patches.emission[k] + static_cast<double>(patches.reflectance[k]) * irradiance);
+                const double received = static_cast<double>(run.banks.received(patch, band));
+                const double ambient = pass.ambient.empty() ? 0 : pass.ambient[band];
+                pass.irradiance[patch * bands + band] =
+                    static_cast<float>(factor[band] * received * unit + ambient);
             }
-            solution.crossings[patch] = static_cast<std::uint64_t>(run.banks.exits(patch));
+            pass.crossings[patch] = static_cast<std::uint64_t>(run.banks.exits(patch));
         }
     };
-    parallel_for(plan.threads, patches.count(), 1 << 14,
+    parallel_for(run.plan.threads, patches.count(), 1 << 14,
                  [&](std::size_t begin, std::size_t end, unsigned) {
                      if (!pass.leftover)
                          return finish(begin, end, factors.data());
@@ -100,21 +76,6 @@ Solution gather(const Run& run, DirectLight& direct, const PassResult& pass, Tra
                              finish(first, last, &factors[group * bands]);
                          });
                  });
-    solution.hash = hash_of(solution);
-    solution.counts = pass.counts;
-    solution.leaks = is_closed(run.scene) ? pass.counts.odd : 0;
-    solution.warnings = pass.warnings;
-    if (solution.leaks > 0)
-        solution.warnings.push_back(std::to_string(solution.leaks) +
-                                    " lines met a closed scene an odd number of times");
-    solution.bundles = pass.bundles;
-    solution.line_spacing = plan.spacing;
-    solution.batch = plan.batch;
-    solution.threads = plan.threads;
-    solution.first_shot_rays = plan.first_shot_rays;
-    solution.shots = direct.shots;
-    solution.partial = !pass.whole || direct.done < 1;
-    return solution;
 }
 
 }  // namespace parallux

@@ -1,0 +1,185 @@
+#include "solve/estimate.h"
+
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "parallel.h"
+#include "random.h"
+
+namespace parallux {
+
+namespace {
+
+std::uint64_t hash_of(const Solution& solution) {
+    std::uint64_t hash = mix64(solution.bands);
+    for (const auto* values : {&solution.radiosity, &solution.irradiance})
+        for (float value : *values)
+            hash = mix64(hash ^ std::bit_cast<std::uint32_t>(value)) + 0x9e3779b97f4a7c15ull;
+    return hash;
+}
+
+void add(const Balance& part, Balance& total) {
+    total.watts_per_quantum = part.watts_per_quantum;
+    for (auto values : {&Balance::emitted, &Balance::absorbed, &Balance::escaped, &Balance::unshot,
+                        &Balance::residual}) {
+        (total.*values).resize((part.*values).size(), 0);
+        for (std::size_t band = 0; band < (part.*values).size(); ++band)
+            (total.*values)[band] += (part.*values)[band];
+    }
+}
+
+// What the ratio of two mean squares of so many degrees of freedom stays below with 95 %
+// (E. Paulson, 1942, after Wilson and Hilferty).
+double f_bound(double above, double below) {
+    constexpr double z = 1.6448536;
+    const double a = 2 / (9 * above), b = 2 / (9 * below);
+    const double root = std::sqrt((1 - b) * (1 - b) * a + (1 - a) * (1 - a) * b - z * z * a * b);
+    return std::pow(((1 - a) * (1 - b) + z * root) / ((1 - b) * (1 - b) - z * z * b), 3);
+}
+
+}  // namespace
+
+std::uint64_t group_seed(std::uint64_t seed, std::uint32_t group) {
+    return group == 0 ? seed : mix64(mix64(seed) + group * 0x9e3779b97f4a7c15ull);
+}
+
+void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) {
+    std::vector<float> irradiance = std::move(pass.irradiance);
+    const unsigned threads = run.plan.threads;
+    if (!direct.irradiance.empty())
+        parallel_for(threads, irradiance.size(), 1 << 14,
+                     [&](std::size_t begin, std::size_t end, unsigned) {
+                         for (std::size_t k = begin; k < end; ++k)
+                             irradiance[k] += direct.irradiance[k];
+                     });
+    if (run.plan.groups > 1)
+        sketch(irradiance, threads);
+    if (groups_ == 0) {
+        irradiance_ = std::move(irradiance);
+        total_.crossings = std::move(pass.crossings);
+    } else {
+        // B. P. Welford's way to mean and spread, with weights; one more than the lines, so that
+        // a patch that none leaves has a mean too.
+        spread_.resize(irradiance_.size(), 0);
+        parallel_for(
+            threads, patches_.count(), 4096, [&](std::size_t begin, std::size_t end, unsigned) {
+                for (std::size_t patch = begin; patch < end; ++patch) {
+                    const double weight = static_cast<double>(pass.crossings[patch]) + 1;
+                    const double before = static_cast<double>(total_.crossings[patch]) + groups_;
+                    const double share = weight / (before + weight);
+                    for (std::size_t k = patch * patches_.bands; k < (patch + 1) * patches_.bands;
+                         ++k) {
+                        const double step = static_cast<double>(irradiance[k]) - irradiance_[k];
+                        irradiance_[k] = static_cast<float>(irradiance_[k] + step * share);
+                        spread_[k] = static_cast<float>(spread_[k] + step * step * share * before);
+                    }
+                    total_.crossings[patch] += pass.crossings[patch];
+                }
+            });
+    }
+    ++groups_;
+    parallux::add(pass.balance, total_.energy);
+    total_.counts += pass.counts;
+    total_.bundles += pass.bundles;
+    total_.shots = direct.shots;
+    if (groups_ == 1)
+        total_.warnings = pass.warnings;
+    if (is_closed(run.scene))
+        total_.leaks += pass.counts.odd;
+    total_.partial = total_.partial || !pass.whole || direct.done < 1;
+}
+
+void Estimate::sketch(const std::vector<float>& irradiance, unsigned threads) {
+    sketches_.emplace_back();
+    parallel_for(threads, sketch_size, 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t row = begin; row < end; ++row) {
+            double sum = 0;
+            for (std::size_t k = 0; k < irradiance.size(); ++k) {
+                if (patches_.emission[k] > 0)
+                    continue;
+                const double value = std::sqrt(patches_.area[k / patches_.bands]) *
+                                     patches_.reflectance[k] * irradiance[k];
+                sum += mix64(k) >> row & 1 ? value : -value;
+            }
+            sketches_.back()[row] = sum;
+        }
+    });
+}
+
+// (tr C)² / tr C² of the covariance C of a group's errors: the errors of two groups have a product
+// of variance tr C². What the sketch adds makes it less, never more.
+double Estimate::freedom() const {
+    Sketch mean{};
+    for (const Sketch& sketch : sketches_)
+        for (std::size_t row = 0; row < sketch_size; ++row)
+            mean[row] += sketch[row] / static_cast<double>(sketches_.size());
+    double own = 0, sum = 0, squares = 0, pairs = 0;
+    for (std::size_t a = 0; a < sketches_.size(); ++a)
+        for (std::size_t b = 0; b <= a; ++b) {
+            double product = 0;
+            for (std::size_t row = 0; row < sketch_size; ++row)
+                product += (sketches_[a][row] - mean[row]) * (sketches_[b][row] - mean[row]);
+            if (a == b) {
+                own += product / (static_cast<double>(sketches_.size()) - 1);
+                continue;
+            }
+            sum += product;
+            squares += product * product;
+            ++pairs;
+        }
+    const double variance = pairs > 1 ? (squares - sum * sum / pairs) / (pairs - 1) : own * own;
+    return variance > 0 ? std::max(1.0, own * own / variance) : 1;
+}
+
+// Of the mean: the groups' own spread, of as many patches as err on their own.
+void Estimate::state_error(Solution& solution) const {
+    solution.stderror.resize(irradiance_.empty() ? solution.irradiance.size() : 0);
+    double error = 0, power = 0;
+    for (std::size_t k = 0; k < solution.irradiance.size(); ++k) {
+        const std::size_t patch = k / patches_.bands;
+        const double weight = static_cast<double>(total_.crossings[patch]) + groups_;
+        const double deviation =
+            patches_.reflectance[k] * std::sqrt(spread_[k] / (weight * (groups_ - 1)));
+        solution.stderror[k] = static_cast<float>(deviation);
+        if (patches_.emission[k] > 0)
+            continue;
+        error += patches_.area[patch] * deviation * deviation;
+        power += patches_.area[patch] * std::pow(solution.radiosity[k], 2);
+    }
+    const double alike = freedom();
+    solution.relative_rms = power > 0 ? std::sqrt(error / power) : 0;
+    solution.relative_rms_bound =
+        solution.relative_rms * std::sqrt(f_bound(alike, alike * (groups_ - 1)));
+}
+
+Solution Estimate::solution(const Plan& plan) {
+    Solution solution = total_;
+    solution.bands = patches_.bands;
+    solution.irradiance = std::move(irradiance_);
+    solution.radiosity.resize(solution.irradiance.size());
+    parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     for (std::size_t k = begin; k < end; ++k)
+                         solution.radiosity[k] = static_cast<float>(
+                             patches_.emission[k] +
+                             static_cast<double>(patches_.reflectance[k]) * solution.irradiance[k]);
+                 });
+    if (groups_ > 1)
+        state_error(solution);
+    solution.hash = hash_of(solution);
+    // The groups' quanta together stand for one run.
+    solution.energy.watts_per_quantum /= groups_;
+    if (solution.leaks > 0)
+        solution.warnings.push_back(std::to_string(solution.leaks) +
+                                    " lines met a closed scene an odd number of times");
+    solution.groups = groups_;
+    solution.line_spacing = plan.spacing;
+    solution.batch = plan.batch;
+    solution.threads = plan.threads;
+    solution.first_shot_rays = plan.first_shot_rays * groups_;
+    return solution;
+}
+
+}  // namespace parallux

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solve/direct_light.h"
+#include "solve/pass.h"
+#include "solve/run.h"
+
+namespace parallux {
+
+/// The seed of a group of a run; that of the first is the run's own.
+std::uint64_t group_seed(std::uint64_t seed, std::uint32_t group);
+
+/// What the groups of a run come to: independent runs, each with its own first shot, pass and
+/// gather, whose spread tells the error of their mean. Patch by patch a group weighs as much as
+/// lines left the patch in it. Two floats a patch and band, whatever the groups.
+class Estimate {
+public:
+    explicit Estimate(const Patches& patches) : patches_(patches) {}
+
+    /// Takes a group's irradiance, direct and the pass's, its counts and its balance.
+    void add(const Run& run, const DirectLight& direct, PassResult& pass);
+    /// The next group was stopped before its end, and is left out.
+    void stop() { total_.partial = true; }
+
+    /// The mean of the groups: radiosity B = E + ρ H, and from two groups on the standard error of
+    /// every patch and the relative RMS of all that do not emit, with its bound of 95 %. Gives its
+    /// memory to the solution.
+    Solution solution(const Plan& plan);
+
+private:
+    // Random signs times the error of a group, whose products between groups tell how many patches
+    // err together.
+    static constexpr std::size_t sketch_size = 64;
+    using Sketch = std::array<double, sketch_size>;
+
+    void sketch(const std::vector<float>& irradiance, unsigned threads);
+    double freedom() const;
+    void state_error(Solution& solution) const;
+
+    const Patches& patches_;
+    std::uint32_t groups_ = 0;
+    std::vector<float> irradiance_;  // mean, patch · bands + band
+    std::vector<float> spread_;      // Σ weight (irradiance - mean)²
+    std::vector<Sketch> sketches_;
+    Solution total_;  // counts, crossings, balance
+};
+
+}  // namespace parallux
