@@ -47,6 +47,9 @@ struct SolveSettings {
     /// tells its error; 0: eight with 640 / (1 - mean reflectance) bundles or more, else 1, which
     /// leaves the error unknown.
     std::uint32_t groups = 0;
+    /// Runs until the relative RMS is below this with 95 % confidence, in place of a number of
+    /// bundles; 0: off. Of bundles alone, and not of one group.
+    double target_error = 0;
     DirectionSet directions = DirectionSet::lattice;
     std::uint64_t seed = 1;
     unsigned threads = 0;          ///< 0: all

@@ -32,6 +32,11 @@ int solve_scene(const SolveOptions& options) {
     write_outputs(options, scene, patches, solution);
     if (!options.quiet)
         tell_summary(options, scene, patches, solution);
+    const double target = options.solve.target_error;
+    if (target > 0 && (solution.groups < 2 || solution.relative_rms_bound > target)) {
+        complain("parallux: target not met: the error is not known to be below it");
+        return exit_above_tolerance;
+    }
     if (!interrupted())
         return 0;
     complain("parallux: interrupted; the outputs hold what was done until then");

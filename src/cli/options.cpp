@@ -33,8 +33,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, const std::string& valu
 }
 
 void add_unavailable(CLI::App& app) {
-    for (std::string name :
-         {"--bake", "--lightmap", "--target-error", "--checkpoint", "--resume", "--bands"})
+    for (std::string name : {"--bake", "--lightmap", "--checkpoint", "--resume", "--bands"})
         app.add_option_function<std::vector<std::string>>(
                name, [name](const std::vector<std::string>&) { not_available(name); })
             ->expected(0, 1)
@@ -159,9 +158,15 @@ void add_method(CLI::App& app, SolveSettings& s) {
            [&](auto& v) { s.shots = parse_count("--shots", v, 0); });
     auto* bundles = option("--bundles", "D", "Directions of parallel lines [4096]",
                            [&](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
-    option("--lines", "N", "Lines in all, rays or particles of the methods that send those",
-           [&](auto& v) { s.lines = parse_count("--lines", v, 1); })
-        ->excludes(bundles);
+    auto* lines =
+        option("--lines", "N", "Lines in all, rays or particles of the methods that send those",
+               [&](auto& v) { s.lines = parse_count("--lines", v, 1); });
+    lines->excludes(bundles);
+    option("--target-error", "R",
+           "Run until the relative RMS is below this with 95 % confidence, as 0.01",
+           [&](auto& v) { s.target_error = parse_real("--target-error", v, 1e-6, 1); })
+        ->excludes(bundles)
+        ->excludes(lines);
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
                            [&](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
     option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4]",

@@ -112,6 +112,8 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
         stats["error"]["relative_rms_bound"] = solution.relative_rms_bound;
         stats["error"]["confidence"] = 0.95;
     }
+    if (settings.target_error > 0)
+        stats["error"]["target"] = settings.target_error;
     stats["solution_hash"] = hash_text(solution.hash);
     stats["partial"] = solution.partial;
     stats["version"] = PARALLUX_VERSION;

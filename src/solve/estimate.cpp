@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -55,7 +56,7 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
                              irradiance[k] += direct.irradiance[k];
                      });
     if (run.plan.groups > 1)
-        sketch(irradiance, threads);
+        sketch(irradiance, static_cast<double>(pass.counts.lines), threads);
     if (groups_ == 0) {
         irradiance_ = std::move(irradiance);
         total_.crossings = std::move(pass.crossings);
@@ -83,6 +84,7 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
     parallux::add(pass.balance, total_.energy);
     total_.counts += pass.counts;
     total_.bundles += pass.bundles;
+    total_.first_shot_rays += run.plan.first_shot_rays;
     total_.shots = direct.shots;
     if (groups_ == 1)
         total_.warnings = pass.warnings;
@@ -91,8 +93,8 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
     total_.partial = total_.partial || !pass.whole || direct.done < 1;
 }
 
-void Estimate::sketch(const std::vector<float>& irradiance, unsigned threads) {
-    sketches_.emplace_back();
+void Estimate::sketch(const std::vector<float>& irradiance, double lines, unsigned threads) {
+    sketches_.push_back({lines, {}});
     parallel_for(threads, sketch_size, 1, [&](std::size_t begin, std::size_t end, unsigned) {
         for (std::size_t row = begin; row < end; ++row) {
             double sum = 0;
@@ -103,24 +105,30 @@ void Estimate::sketch(const std::vector<float>& irradiance, unsigned threads) {
                                      patches_.reflectance[k] * irradiance[k];
                 sum += mix64(k) >> row & 1 ? value : -value;
             }
-            sketches_.back()[row] = sum;
+            sketches_.back().sums[row] = sum;
         }
     });
 }
 
-// (tr C)² / tr C² of the covariance C of a group's errors: the errors of two groups have a product
-// of variance tr C². What the sketch adds makes it less, never more.
+// (tr C)² / tr C² of the covariance C of a group's errors, each by the root of its lines: the
+// errors of two groups have a product of variance tr C². What the sketch adds makes it less, never
+// more.
 double Estimate::freedom() const {
-    Sketch mean{};
-    for (const Sketch& sketch : sketches_)
+    double lines = 0;
+    std::array<double, sketch_size> mean{};
+    for (const Sketch& sketch : sketches_) {
+        lines += sketch.lines;
         for (std::size_t row = 0; row < sketch_size; ++row)
-            mean[row] += sketch[row] / static_cast<double>(sketches_.size());
+            mean[row] += sketch.lines * sketch.sums[row];
+    }
     double own = 0, sum = 0, squares = 0, pairs = 0;
     for (std::size_t a = 0; a < sketches_.size(); ++a)
         for (std::size_t b = 0; b <= a; ++b) {
             double product = 0;
             for (std::size_t row = 0; row < sketch_size; ++row)
-                product += (sketches_[a][row] - mean[row]) * (sketches_[b][row] - mean[row]);
+                product += (sketches_[a].sums[row] - mean[row] / lines) *
+                           (sketches_[b].sums[row] - mean[row] / lines);
+            product *= std::sqrt(sketches_[a].lines * sketches_[b].lines) / lines;
             if (a == b) {
                 own += product / (static_cast<double>(sketches_.size()) - 1);
                 continue;
@@ -133,29 +141,41 @@ double Estimate::freedom() const {
     return variance > 0 ? std::max(1.0, own * own / variance) : 1;
 }
 
-// Of the mean: the groups' own spread, of as many patches as err on their own.
-void Estimate::state_error(Solution& solution) const {
-    solution.stderror.resize(irradiance_.empty() ? solution.irradiance.size() : 0);
+// Standard error of the mean radiosity: the groups' own spread.
+double Estimate::deviation(std::size_t k) const {
+    const double weight = static_cast<double>(total_.crossings[k / patches_.bands]) + groups_;
+    return patches_.reflectance[k] * std::sqrt(spread_[k] / (weight * (groups_ - 1)));
+}
+
+double Estimate::relative_rms() const {
     double error = 0, power = 0;
-    for (std::size_t k = 0; k < solution.irradiance.size(); ++k) {
-        const std::size_t patch = k / patches_.bands;
-        const double weight = static_cast<double>(total_.crossings[patch]) + groups_;
-        const double deviation =
-            patches_.reflectance[k] * std::sqrt(spread_[k] / (weight * (groups_ - 1)));
-        solution.stderror[k] = static_cast<float>(deviation);
+    for (std::size_t k = 0; k < irradiance_.size(); ++k) {
         if (patches_.emission[k] > 0)
             continue;
-        error += patches_.area[patch] * deviation * deviation;
-        power += patches_.area[patch] * std::pow(solution.radiosity[k], 2);
+        const double area = patches_.area[k / patches_.bands];
+        error += area * std::pow(deviation(k), 2);
+        power += area * std::pow(static_cast<double>(patches_.reflectance[k]) * irradiance_[k], 2);
     }
+    return power > 0 ? std::sqrt(error / power) : 0;
+}
+
+double Estimate::error_bound() const {
+    if (groups_ < 2)
+        return std::numeric_limits<double>::infinity();
     const double alike = freedom();
-    solution.relative_rms = power > 0 ? std::sqrt(error / power) : 0;
-    solution.relative_rms_bound =
-        solution.relative_rms * std::sqrt(f_bound(alike, alike * (groups_ - 1)));
+    return relative_rms() * std::sqrt(f_bound(alike, alike * (groups_ - 1)));
 }
 
 Solution Estimate::solution(const Plan& plan) {
     Solution solution = total_;
+    if (groups_ > 1) {
+        solution.relative_rms = relative_rms();
+        solution.relative_rms_bound = error_bound();
+        solution.stderror.resize(irradiance_.size());
+        for (std::size_t k = 0; k < irradiance_.size(); ++k)
+            solution.stderror[k] = static_cast<float>(deviation(k));
+    }
+    spread_ = std::vector<float>();
     solution.bands = patches_.bands;
     solution.irradiance = std::move(irradiance_);
     solution.radiosity.resize(solution.irradiance.size());
@@ -166,8 +186,6 @@ Solution Estimate::solution(const Plan& plan) {
                              patches_.emission[k] +
                              static_cast<double>(patches_.reflectance[k]) * solution.irradiance[k]);
                  });
-    if (groups_ > 1)
-        state_error(solution);
     solution.hash = hash_of(solution);
     // The groups' quanta together stand for one run.
     solution.energy.watts_per_quantum /= groups_;
@@ -178,7 +196,6 @@ Solution Estimate::solution(const Plan& plan) {
     solution.line_spacing = plan.spacing;
     solution.batch = plan.batch;
     solution.threads = plan.threads;
-    solution.first_shot_rays = plan.first_shot_rays * groups_;
     return solution;
 }
 

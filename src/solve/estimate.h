@@ -22,6 +22,11 @@ public:
 
     /// Takes a group's irradiance, direct and the pass's, its counts and its balance.
     void add(const Run& run, const DirectLight& direct, PassResult& pass);
+    std::uint32_t groups() const { return groups_; }
+    std::uint64_t bundles() const { return total_.bundles; }
+    /// Relative RMS of all that does not emit and its bound of 95 %, as the solution will have
+    /// them; infinite from one group alone.
+    double error_bound() const;
     /// The next group was stopped before its end, and is left out.
     void stop() { total_.partial = true; }
 
@@ -34,11 +39,15 @@ private:
     // Random signs times the error of a group, whose products between groups tell how many patches
     // err together.
     static constexpr std::size_t sketch_size = 64;
-    using Sketch = std::array<double, sketch_size>;
+    struct Sketch {
+        double lines;  ///< of the group
+        std::array<double, sketch_size> sums;
+    };
 
-    void sketch(const std::vector<float>& irradiance, unsigned threads);
+    void sketch(const std::vector<float>& irradiance, double lines, unsigned threads);
     double freedom() const;
-    void state_error(Solution& solution) const;
+    double deviation(std::size_t k) const;
+    double relative_rms() const;
 
     const Patches& patches_;
     std::uint32_t groups_ = 0;

@@ -116,6 +116,11 @@ std::uint32_t groups_of(const Patches& patches, const SolveSettings& settings,
     return static_cast<double>(bundles) >= enough && settings.gather_share != 0 ? usual : 1;
 }
 
+// The first round of a run to a stated error: enough for groups without bias.
+std::uint64_t trial_bundles(const Patches& patches) {
+    return static_cast<std::uint64_t>(std::ceil(640 / (1 - mean_reflectance(patches))));
+}
+
 bool follows_lines(const SolveSettings& settings) {
     return settings.method == Method::lines || settings.method == Method::matrix;
 }
@@ -156,7 +161,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = static_cast<std::uint64_t>(
             std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
     else
-        plan.bundles = 4096;
+        plan.bundles = settings.target_error > 0 ? trial_bundles(patches) : 4096;
     if (follows_lines(settings)) {
         plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
         plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
@@ -308,6 +313,8 @@ namespace {
 void check(const SolveSettings& settings) {
     if (settings.bundles && settings.lines)
         throw Error(Fault::usage, "--bundles and --lines contradict each other; give one");
+    if (settings.target_error > 0 && (settings.method != Method::bundles || settings.groups == 1))
+        throw Error(Fault::usage, "--target-error needs --method bundles and more than one group");
     if (!(settings.lines_per_patch > 0) || settings.line_spacing < 0)
         throw Error(Fault::usage, "lines per patch and line spacing must be positive");
     bool bundles = settings.method == Method::bundles || settings.method == Method::lines;
@@ -344,8 +351,10 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     for (float reflectance : patches.reflectance)
         plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
     plan_lines(patches, settings, plan);
+    // All rounds' groups add up their quanta.
+    const double times = plan.groups * (settings.target_error > 0 ? most_rounds : 1);
     plan.watts_per_quantum =
-        quantum(plan.groups * power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
+        quantum(times * power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
     plan.first_shot = settings.first_shot;
     bool local = settings.method == Method::progressive || settings.method == Method::particles;
     if (plan.first_shot == FirstShot::automatic)

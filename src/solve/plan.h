@@ -7,6 +7,9 @@
 
 namespace parallux {
 
+/// Rounds of a run to a stated error, at most.
+inline constexpr std::uint32_t most_rounds = 8;
+
 /// The numbers of a run, all settled before it begins.
 struct Plan {
     unsigned threads = 1;

@@ -32,20 +32,20 @@ public:
     Listener(const ProgressCallback& callback, double time_limit)
         : callback_(callback), time_limit_(time_limit) {}
 
-    /// What follows is one of some equal parts of the bundles, each with its own first shot.
-    void begin_part(unsigned part, unsigned parts) {
-        part_ = part;
-        parts_ = parts;
+    /// What follows is a part of the bundles, which has its own first shot: from … to of all.
+    void begin_part(double from, double to) {
+        from_ = from;
+        to_ = to;
         lines_before_ = lines_;
     }
 
     /// `done`: share of the stage, `lines` or rays so far in it. Once false, always false.
     bool go_on(const char* stage, double done, std::uint64_t lines) {
         if (std::strcmp(stage, "first shot") != 0) {
-            done = (part_ + done) / parts_;
-        } else if (part_ > 0) {
+            done = from_ + (to_ - from_) * done;
+        } else if (from_ > 0) {
             stage = stage_;
-            done = static_cast<double>(part_) / parts_;
+            done = from_;
         }
         lines_ = lines = lines_before_ + lines;
         // A stage begins where the one before it was last heard of.
@@ -68,7 +68,7 @@ private:
     double time_limit_;
     const char* stage_ = nullptr;
     Watch total_, stage_watch_, last_;
-    unsigned part_ = 0, parts_ = 1;
+    double from_ = 0, to_ = 1;
     std::uint64_t lines_ = 0, lines_before_ = 0;
     bool stopped_ = false;
 };

@@ -1,5 +1,6 @@
 #include "parallux/solve.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "parallel.h"
@@ -40,6 +41,42 @@ PassResult carry(const Run& run, DirectLight& direct, TransferState& state) {
     return global_pass(run, direct, state);
 }
 
+// One group: first shot, pass and gather under a seed of its own, into the estimate.
+void run_group(const Run& run, DirectLight& direct, Estimate& estimate, Seconds& seconds) {
+    // Shoot the light of the sources locally.
+    Watch watch;
+    if (estimate.groups() == 0 || run.plan.shoot_each)
+        direct = first_shot(run);
+    seconds.first_shot += watch.lap();
+
+    // Send what is left unshot along global lines, or by a reference method.
+    const double loops_before = seconds_in_loops();
+    TransferState state = dark_state(run.patches, run.plan.watts_per_quantum);
+    PassResult pass = carry(run, direct, state);
+    end_pass(run, direct, state, pass);
+    const double passed = watch.lap();
+    seconds.global += passed;
+    seconds.serial += passed - (seconds_in_loops() - loops_before);
+
+    // Gather along fresh lines what all patches send by then.
+    closing_gather(run, state, pass);
+    if (estimate.groups() == 0 || pass.whole)
+        estimate.add(run, direct, pass);
+    run.banks.clear(run.plan.threads);
+    seconds.gather += watch.lap();
+}
+
+// Bundles that a run to a stated error still needs: the error falls at least as the root of the
+// lines. More than half of those done, so that rounds are few, and 16 times as many at most,
+// because a forecast from few is rough. 0: none.
+std::uint64_t missing_bundles(const Estimate& estimate, const SolveSettings& settings) {
+    const double over = estimate.error_bound() / settings.target_error;
+    if (settings.target_error <= 0 || over <= 1)
+        return 0;
+    const double done = static_cast<double>(estimate.bundles());
+    return static_cast<std::uint64_t>(std::clamp(1.05 * over * over - 1, 0.5, 16.0) * done);
+}
+
 }  // namespace
 
 Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& settings,
@@ -48,49 +85,35 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     Plan plan = make_plan(scene, patches, settings);
     Listener listener(progress, settings.time_limit);
     Banks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
-    Seconds seconds;
-
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
     Team team(plan.threads);
     DirectLight direct;
     Estimate estimate(patches);
-    for (std::uint32_t group = 0; group < plan.groups; ++group) {
-        SolveSettings own = settings;
-        own.seed = group_seed(settings.seed, group);
-        const Run run{scene, patches, own, plan, rays.get(), banks, listener};
-        listener.begin_part(group, plan.groups);
-
-        // Shoot the light of the sources locally.
-        Watch watch;
-        if (group == 0 || plan.shoot_each)
-            direct = first_shot(run);
-        seconds.first_shot += watch.lap();
-
-        // Send what is left unshot along global lines, or by a reference method.
-        const double loops_before = seconds_in_loops();
-        TransferState state = dark_state(patches, plan.watts_per_quantum);
-        PassResult pass = carry(run, direct, state);
-        end_pass(run, direct, state, pass);
-        const double passed = watch.lap();
-        seconds.global += passed;
-        seconds.serial += passed - (seconds_in_loops() - loops_before);
-
-        // Gather along fresh lines what all patches send by then.
-        closing_gather(run, state, pass);
-        if (group > 0 && !pass.whole) {
+    Seconds seconds;
+    SolveSettings own = settings;
+    for (std::uint32_t round = 1;; ++round) {
+        // Run groups of their own seeds, each a whole solution.
+        const std::uint64_t before = estimate.bundles();
+        const auto end = static_cast<double>(before + plan.groups * plan.bundles);
+        for (std::uint32_t group = 0; group < plan.groups && !listener.stopped(); ++group) {
+            own.seed = group_seed(settings.seed, estimate.groups());
+            const auto from = static_cast<double>(before + group * plan.bundles);
+            listener.begin_part(from / end, (from + static_cast<double>(plan.bundles)) / end);
+            run_group({scene, patches, own, plan, rays.get(), banks, listener}, direct, estimate,
+                      seconds);
+        }
+        if (estimate.bundles() < before + plan.groups * plan.bundles) {
             estimate.stop();
             break;
         }
-        estimate.add(run, direct, pass);
-        banks.clear(plan.threads);
-        seconds.gather += watch.lap();
-        if (listener.stopped()) {
-            if (group + 1 < plan.groups)
-                estimate.stop();
+        // Where an error is wanted, go on with longer groups.
+        own.bundles = missing_bundles(estimate, settings);
+        if (own.bundles == 0 || round == most_rounds)
             break;
-        }
+        own.groups = plan.groups;
+        plan = make_plan(scene, patches, own);
     }
 
     // The groups' mean is the result, their spread its error.

@@ -117,7 +117,6 @@ TEST_CASE("what is not there yet is refused, not ignored") {
     Workplace place;
     for (std::vector<std::string> arguments : {std::vector<std::string>{"--bake", "x.glb"},
                                                {"--lightmap", "x.exr"},
-                                               {"--target-error", "0.01"},
                                                {"--checkpoint", "x"},
                                                {"--resume", "x"},
                                                {"--bands", "8"}}) {
