@@ -19,11 +19,11 @@ namespace HWY_NAMESPACE {
 template <std::uint32_t bands, std::size_t ahead>
 void exchange_both(const PatchList& from, const PatchList& to, const std::int32_t* carried,
                    std::int64_t* received) {
-    constexpr std::size_t ahead = 256, count = lanes(bands);
+    constexpr std::size_t count = lanes(bands);
     const std::uint32_t *i = from.ids.data(), *j = to.ids.data();
     for (std::size_t k = 0; k < from.count; ++k) {
         const std::size_t a = i[k] * count, b = j[k] * count;
-        if (k + ahead < from.count) {
+        if (ahead > 0 && k + ahead < from.count) {
             const std::size_t next_a = i[k + ahead] * count, next_b = j[k + ahead] * count;
             hwy::Prefetch(carried + next_a);
             hwy::Prefetch(carried + next_b);
@@ -35,9 +35,14 @@ void exchange_both(const PatchList& from, const PatchList& to, const std::int32_
     }
 }
 
-void exchange_lanes(std::uint32_t band_count, const PatchList& from, const PatchList& to,
+void exchange_lanes(std::uint32_t band_count, bool far, const PatchList& from, const PatchList& to,
                     const std::int32_t* carried, std::int64_t* received) {
-    for_bands(band_count, [&](auto bands) { exchange_both<bands()>(from, to, carried, received); });
+    for_bands(band_count, [&](auto bands) {
+        if (far)
+            exchange_both<bands(), 256>(from, to, carried, received);
+        else
+            exchange_both<bands(), 0>(from, to, carried, received);
+    });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -51,10 +56,14 @@ namespace {
 
 HWY_EXPORT(exchange_lanes);
 
+// What lies beyond the caches near to the processor is asked for early.
+constexpr std::size_t near_bytes = std::size_t(4) << 20;
+
 template <std::uint32_t bands>
 struct PairExchange {
     const std::int32_t* carried;
     std::int64_t* received;
+    bool far;
 
     std::size_t at(std::uint32_t patch) const {
         return static_cast<std::size_t>(patch) * lanes(bands);
@@ -86,7 +95,7 @@ void exchange_all(const TilePairs& pairs, const PairExchange<bands>& exchange, b
                   const SkyQuanta* sky) {
     if (both_ways) {
         HWY_DYNAMIC_DISPATCH(exchange_lanes)
-        (bands, pairs.from, pairs.to, exchange.carried, exchange.received);
+        (bands, exchange.far, pairs.from, pairs.to, exchange.carried, exchange.received);
     } else {
         exchange.one_way(pairs.from, pairs.to);
     }
@@ -108,8 +117,10 @@ void exchange_pairs(const TilePairs& pairs, const TransferState& state, Directio
                     const SkyQuanta* sky, Bank& bank, WorkerTotals& totals) {
     const bool both_ways = direction == Direction::bidirectional;
     count_lines(pairs, state, both_ways, sky, totals);
+    const std::size_t bytes = state.carried.size() * (sizeof(std::int32_t) + sizeof(std::int64_t));
     for_bands(state.bands, [&](auto bands) {
-        const PairExchange<bands()> exchange{state.carried.data(), bank.received.data()};
+        const PairExchange<bands()> exchange{state.carried.data(), bank.received.data(),
+                                             bytes > near_bytes};
         exchange_all(pairs, exchange, both_ways, sky);
     });
 }
