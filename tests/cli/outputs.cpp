@@ -82,8 +82,8 @@ TEST_CASE("table and statistics have exactly the promised columns and keys") {
                                                      "isa",
                                                      "warnings"});
     CHECK(keys_of(stats["seconds"]) == std::vector<std::string>{"load", "patches", "first_shot",
-                                                                "global", "gather", "output",
-                                                                "total"});
+                                                                "global", "serial", "gather",
+                                                                "output", "total"});
     CHECK(keys_of(stats["energy"]) == std::vector<std::string>{"emitted", "absorbed", "escaped",
                                                                "unshot", "residual", "quanta"});
     CHECK(stats["energy"]["residual"] == nlohmann::ordered_json({0, 0, 0}));
