@@ -31,22 +31,23 @@ template <class D>
 HWY_INLINE hn::Vec<hn::RebindToSigned<D>> cell_of(D d, const SurfaceView& view, hn::Vec<D> u,
                                                   hn::Vec<D> v) {
     const hn::RebindToSigned<D> i;
-    using VI = hn::Vec<decltype(i)>;
-    const VI most_u = hn::Set(i, static_cast<std::int32_t>(view.nu) - 1);
+    using Cells = hn::Vec<decltype(i)>;
+    const Cells most_u = hn::Set(i, static_cast<std::int32_t>(view.nu) - 1);
     const hn::Vec<D> fu = hn::Mul(u, hn::Set(d, static_cast<float>(view.nu)));
     const hn::Vec<D> fv = hn::Mul(v, hn::Set(d, static_cast<float>(view.nv)));
-    VI iu = hn::Min(hn::ConvertTo(i, fu), most_u);
-    const VI iv = hn::Min(hn::ConvertTo(i, fv), hn::Set(i, static_cast<std::int32_t>(view.nv) - 1));
-    const VI n = hn::Set(i, static_cast<std::int32_t>(view.nu));
+    Cells iu = hn::Min(hn::ConvertTo(i, fu), most_u);
+    const Cells iv =
+        hn::Min(hn::ConvertTo(i, fv), hn::Set(i, static_cast<std::int32_t>(view.nv) - 1));
+    const Cells n = hn::Set(i, static_cast<std::int32_t>(view.nu));
     if (view.shape == Shape::parallelogram)
         return hn::Add(hn::Mul(iv, n), iu);
-    const VI one = hn::Set(i, 1), in_row = hn::Sub(n, iv);
+    const Cells one = hn::Set(i, 1), in_row = hn::Sub(n, iv);
     iu = hn::Min(iu, hn::Sub(in_row, one));
     const hn::Vec<D> rest =
         hn::Add(hn::Sub(fu, hn::ConvertTo(d, iu)), hn::Sub(fv, hn::ConvertTo(d, iv)));
     const auto beyond = hn::RebindMask(i, hn::Gt(rest, hn::Set(d, 1.0f)));
     const auto inverted = hn::And(beyond, hn::Lt(hn::Add(iu, one), in_row));
-    const VI k = hn::Add(hn::Add(iu, iu), hn::IfThenElseZero(inverted, one));
+    const Cells k = hn::Add(hn::Add(iu, iu), hn::IfThenElseZero(inverted, one));
     return hn::Add(hn::Mul(iv, hn::Sub(hn::Add(n, n), iv)), k);
 }
 

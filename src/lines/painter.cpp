@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "lines/hits-inl.h"
+#include "lines/line_lanes-inl.h"
 #include "lines/painter.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,11 +16,6 @@ namespace parallux {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::CappedTag<float, block_lines>;
-using Ints = hn::RebindToSigned<Floats>;
-using VF = hn::Vec<Floats>;
-using VI = hn::Vec<Ints>;
-using Lines = hn::Mask<Ints>;
 
 constexpr std::int32_t no_patch = -1;  // an inert back
 constexpr std::int32_t outside = -2;   // nothing yet
@@ -28,14 +24,6 @@ HWY_INLINE Lines lines_of(std::uint32_t bits) {
     std::uint8_t bytes[8] = {};
     std::memcpy(bytes, &bits, sizeof bits);
     return hn::LoadMaskBits(Ints(), bytes);
-}
-
-HWY_INLINE std::uint32_t bits_of(Lines lines) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Ints(), lines, bytes);
-    std::uint32_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    return bits;
 }
 
 HWY_INLINE void append_to(PatchList& list, VI patches, Lines which) {

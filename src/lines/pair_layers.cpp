@@ -8,6 +8,7 @@
 
 #include "lines/hit_layers.h"
 #include "lines/hits-inl.h"
+#include "lines/line_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace parallux {
@@ -29,20 +30,8 @@ void pair_all(const MeshTile& tile, HitLayers& layers, ViewCache&, const KeyTies
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Lines are followed as many at a time as a vector has 32-bit lanes; their keys fill two vectors.
-using Ints = hn::CappedTag<std::int32_t, 16>;
 using Keys = hn::RepartitionToWide<Ints>;  // no key has the highest bit
-using Floats = hn::RebindToFloat<Ints>;
-using VI = hn::Vec<Ints>;
 using VK = hn::Vec<Keys>;
-using Lines = hn::Mask<Ints>;
-
-HWY_INLINE std::uint32_t bits_of(Lines lines) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Ints(), lines, bytes);
-    std::uint32_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    return bits;
-}
 
 // The sorted hits of neighbouring lines of a row, and how many each has.
 struct LineHits {
