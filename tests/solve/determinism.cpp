@@ -97,10 +97,9 @@ TEST_CASE("equal bits whether workers have banks of their own or share one") {
 }
 
 TEST_CASE("equal bits with every instruction set") {
-    // Few surfaces are painted, many go through layers; bands from one to eight. Fails (planted,
-    // each seen) when a product and a sum are fused in hits_of(), when plain code takes every line
-    // of a mesh for one that meets nothing, or when the dither of a band in merge() counts from the
-    // vector's first; or when a vector is loaded from where none begins (seen).
+    // Few surfaces are painted, many go through layers; bands from one to eight. Fails when a
+    // vector is loaded from where none begins (seen as a crash), or when the dither of a band in
+    // merge() counts from the vector's first (planted, seen).
     Scene few = mixed_scene();
     few.lights.clear();
     Scene many = few;
