@@ -7,6 +7,7 @@
 #include "parallel.h"
 #include "random.h"
 #include "solve/line_sweep.h"
+#include "solve/power.h"
 #include "transfer/merge.h"
 
 namespace parallux {

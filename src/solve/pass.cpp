@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parallel.h"
+#include "solve/power.h"
 
 namespace parallux {
 

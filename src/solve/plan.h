@@ -40,13 +40,4 @@ struct Plan {
 /// settings that contradict each other, Fault::memory when the run needs more than allowed.
 Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings);
 
-/// Whether the method casts single rays or lines, or has lights that do.
-bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings);
-
-/// The largest radiance of a sky in one band.
-double sky_bound(const Sky& sky, std::uint32_t band);
-
-/// Bytes that all workers' deltas together may take.
-std::uint64_t bank_limit(const SolveSettings& settings);
-
 }  // namespace parallux

@@ -13,6 +13,7 @@
 #include "solve/first_shot.h"
 #include "solve/global_pass.h"
 #include "solve/in_order_pass.h"
+#include "solve/plan_shots.h"
 #include "solve/run.h"
 
 // M. Sbert and X. Pueyo, A Global Algorithm for Linear Radiosity (LSI-93-37-R, 1993): as printed,

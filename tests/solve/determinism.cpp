@@ -6,7 +6,7 @@
 
 #include "parallux/error.h"
 #include "parallux/solve.h"
-#include "solve/plan.h"
+#include "solve/memory.h"
 #include "support/hand_made.h"
 #include "transfer/banks.h"
 #include "vectors.h"

@@ -1,0 +1,150 @@
+#include "solve/plan_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "parallux/error.h"
+
+namespace parallux {
+
+namespace {
+
+// The last bundles only carry on what the others left. A bundle sends half of what is unshot (a
+// quarter in one direction) and ρ of that comes back: so many that a fiftieth remains, but never
+// more than an eighth of the run.
+std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& settings,
+                              std::uint64_t bundles) {
+    double area = 0, reflecting = 0;
+    for (std::size_t patch = 0; patch < patches.count(); ++patch) {
+        float most = 0;
+        for (std::uint32_t band = 0; band < patches.bands; ++band)
+            most = std::max(most, patches.reflectance[patch * patches.bands + band]);
+        area += patches.area[patch];
+        reflecting += patches.area[patch] * most;
+    }
+    double sent = settings.direction == Direction::oriented ? 0.25 : 0.5;
+    double kept = 1 - (1 - reflecting / area) * sent;
+    double wanted = std::ceil(std::log(0.02) / std::log(kept));
+    return static_cast<std::uint64_t>(
+        std::min(wanted, std::floor(static_cast<double>(bundles) / 8)));
+}
+
+// The pass only has to tell the gather roughly how bright everything is, because its error is
+// smoothed by one more bounce: three tenths of the bundles, but as many as the bounces need.
+std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& settings,
+                                std::uint64_t bundles) {
+    const double all = static_cast<double>(bundles);
+    if (settings.method != Method::bundles)
+        return 0;
+    if (settings.gather_share >= 0)
+        return std::min(static_cast<std::uint64_t>(settings.gather_share * all), bundles - 1);
+    if (bundles < 64)
+        return 0;
+    const double bounces = 100 / (1 - mean_reflectance(patches));
+    return static_cast<std::uint64_t>(all - std::min(std::max(0.3 * all, bounces), 0.5 * all));
+}
+
+// Groups whose spread tells the error of their mean: eight, if each has bundles enough to be
+// without a bias of its own, which no spread would show.
+std::uint32_t groups_of(const Patches& patches, const SolveSettings& settings,
+                        std::uint64_t bundles) {
+    constexpr std::uint32_t usual = 8;
+    if (settings.method != Method::bundles)
+        return 1;
+    if (settings.groups > 0)
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.groups, bundles));
+    const double enough = usual * 80 / (1 - mean_reflectance(patches));
+    return static_cast<double>(bundles) >= enough && settings.gather_share != 0 ? usual : 1;
+}
+
+// The first round of a run to a stated error: enough for groups without bias.
+std::uint64_t trial_bundles(const Patches& patches) {
+    return static_cast<std::uint64_t>(std::ceil(640 / (1 - mean_reflectance(patches))));
+}
+
+bool follows_lines(const SolveSettings& settings) {
+    return settings.method == Method::lines || settings.method == Method::matrix;
+}
+
+bool in_batches(const SolveSettings& settings) {
+    return settings.method == Method::bundles ||
+           (settings.method == Method::lines && settings.batch > 0);
+}
+
+// A merge counts the exits of a batch in 32 bits.
+constexpr double most_lines_a_batch = 1 << 30;
+
+void limit_batch(double lines_a_bundle, Plan& plan) {
+    if (lines_a_bundle > most_lines_a_batch)
+        throw Error(Fault::usage, "more than 2^30 lines in a bundle; choose a larger spacing");
+    plan.batch =
+        std::min(plan.batch, static_cast<std::uint32_t>(most_lines_a_batch / lines_a_bundle));
+}
+
+}  // namespace
+
+double mean_area(const Patches& patches) {
+    double total = 0;
+    for (double area : patches.area)
+        total += area;
+    return total / static_cast<double>(patches.count());
+}
+
+double mean_reflectance(const Patches& patches) {
+    double area = 0, reflecting = 0;
+    for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
+        area += patches.area[k / patches.bands];
+        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
+    }
+    return reflecting / area;
+}
+
+void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& plan) {
+    double disc = pi * plan.sphere.radius * plan.sphere.radius;
+    plan.spacing = settings.line_spacing > 0
+                       ? settings.line_spacing
+                       : std::sqrt(mean_area(patches) / settings.lines_per_patch);
+    plan.cell = plan.spacing * plan.spacing;
+    if (settings.method == Method::bundles)
+        check_spacing(plan.spacing, plan.sphere.radius);
+    // A bundle's lines through the sphere, and so the independent lines that stand for it.
+    double lines_a_bundle = disc / plan.cell;
+    if (settings.bundles)
+        plan.bundles = settings.bundles;
+    else if (settings.lines)
+        plan.bundles = static_cast<std::uint64_t>(
+            std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
+    else
+        plan.bundles = settings.target_error > 0 ? trial_bundles(patches) : 4096;
+    if (follows_lines(settings)) {
+        plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
+        plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
+        plan.lines_a_unit = std::min(plan.lines_a_unit, plan.lines);
+        plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
+        plan.cell = disc / static_cast<double>(plan.lines_a_unit);
+    }
+    plan.groups = groups_of(patches, settings, plan.bundles);
+    plan.bundles = (plan.bundles - 1) / plan.groups + 1;
+    plan.gathering = gathering_bundles(patches, settings, plan.bundles);
+    if (in_batches(settings))
+        plan.closing = closing_bundles(patches, settings, plan.passing());
+    std::uint64_t emitting = plan.passing() - plan.closing;
+    if (follows_lines(settings)) {
+        // n_i = N A_i / (2 π R²) exits, so that an exit carries 2 π R² E / N.
+        std::uint64_t lines = std::min(plan.lines, emitting * plan.lines_a_unit);
+        plan.emission_cell = 2 * disc / static_cast<double>(lines);
+    } else {
+        // n_i = D A_i / (2 δ²) exits, so that an exit carries 2 δ² E / D.
+        plan.emission_cell = 2 * plan.cell / static_cast<double>(emitting);
+    }
+    if (settings.direction == Direction::oriented)
+        plan.emission_cell *= 2;
+    plan.batch = settings.batch;
+    if (settings.method == Method::bundles && settings.batch == 0)
+        plan.batch =
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.passing() / 256, 1, 64));
+    if (plan.batch > 0)
+        limit_batch(disc / plan.cell, plan);
+}
+
+}  // namespace parallux

@@ -1,0 +1,59 @@
+#include "solve/plan_shots.h"
+
+#include <algorithm>
+
+#include "solve/plan_lines.h"
+
+namespace parallux {
+
+namespace {
+
+bool emits(const Patches& patches) {
+    return std::any_of(patches.emission.begin(), patches.emission.end(),
+                       [](float e) { return e > 0; });
+}
+
+// The methods that send single rays from patches: a thousand a patch where nothing is said.
+void plan_local_rays(const Patches& patches, const SolveSettings& settings, Plan& plan) {
+    plan.lines = settings.lines ? settings.lines : 1000 * patches.count();
+    plan.bundles = 0;
+    plan.spacing = 0;
+    // All shots together send P / (1 - ρ): so many rays leave in all as lines were asked for.
+    if (settings.method == Method::progressive)
+        plan.shot_rays = static_cast<double>(plan.lines) * (1 - mean_reflectance(patches));
+}
+
+// Direct light must never be what the error stops at: its rays, whose sequence is even, grow as an
+// eighth of the lines' exits, and four hundred meet a patch of mean size at least.
+std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
+    double area = mean_area(patches) * static_cast<double>(patches.count());
+    double exits = static_cast<double>(plan.groups * plan.bundles) * area / (2 * plan.cell);
+    double rays = std::max(0.125 * exits, 400.0 * static_cast<double>(patches.count()));
+    return static_cast<std::uint64_t>(std::min(rays, 4.0e9));
+}
+
+}  // namespace
+
+bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+    return settings.method != Method::bundles || !scene.lights.empty() || settings.shots > 0 ||
+           (emits(patches) && settings.first_shot != FirstShot::off);
+}
+
+void plan_shots(const Patches& patches, const SolveSettings& settings, Plan& plan) {
+    plan.first_shot = settings.first_shot;
+    bool local = settings.method == Method::progressive || settings.method == Method::particles;
+    if (plan.first_shot == FirstShot::automatic)
+        plan.first_shot =
+            local || settings.method == Method::matrix ? FirstShot::off : FirstShot::rays;
+    std::uint64_t rays =
+        settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
+    rays = (rays - 1) / plan.groups + 1;
+    plan.shot_rays = static_cast<double>(rays);
+    if (plan.first_shot == FirstShot::rays && emits(patches))
+        plan.first_shot_rays = rays;
+    plan.shoot_each = plan.first_shot_rays > 0 || settings.shots > 0;
+    if (local)
+        plan_local_rays(patches, settings, plan);
+}
+
+}  // namespace parallux
