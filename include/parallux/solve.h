@@ -26,7 +26,10 @@ namespace parallux {
 /// The last three are what the first two are judged against.
 enum class Method { bundles, lines, progressive, particles, matrix };
 
-/// How direct light is found. automatic: rays for bundles and lines, off for the other methods.
+/// How direct light is found: left to the lines, by local rays from the sources, or by form factors
+/// (exact where nothing stands between; past what does, in closed form in scenes of up to 256
+/// surfaces, else by shadow rays). automatic: for bundles and lines, form factors in scenes of few
+/// surfaces and sources, else rays; off for the other methods.
 enum class FirstShot { automatic, off, rays, exact };
 
 struct SolveSettings {

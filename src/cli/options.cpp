@@ -148,10 +148,11 @@ void add_method(CLI::App& app, SolveSettings& s) {
             "--direction", v,
             {{"bidirectional", Direction::bidirectional}, {"oriented", Direction::oriented}});
     });
-    option("--first-shot", "F",
-           "Direct light by rays, exact (form factors; emitters × patches), or none [rays with "
-           "bundles and lines]",
-           [&](auto& v) { s.first_shot = parse_first_shot(v); });
+    option(
+        "--first-shot", "F",
+        "Direct light by rays, exact (form factors; emitters × patches), or none [exact in scenes "
+        "of few surfaces and sources, else rays]",
+        [&](auto& v) { s.first_shot = parse_first_shot(v); });
     option("--first-shot-rays", "N", "Rays of the first shot [grows with the lines]",
            [&](auto& v) { s.first_shot_rays = parse_count("--first-shot-rays", v, 1); });
     option("--shots", "N", "Then so many more, from the patches with most unshot power [0]",

@@ -84,7 +84,8 @@ void take_means(const Run& run, double unit, PassResult& pass) {
 
 }  // namespace
 
-void closing_gather(const Run& run, TransferState& state, PassResult& pass) {
+void closing_gather(const Run& run, TransferState& state, std::span<const std::uint32_t> dark,
+                    PassResult& pass) {
     const Plan& plan = run.plan;
     if (plan.gathering == 0 || !pass.whole)
         return;
@@ -102,6 +103,8 @@ void closing_gather(const Run& run, TransferState& state, PassResult& pass) {
     while (done < plan.gathering) {
         const std::uint64_t count = std::min(at_once, plan.gathering - done);
         load_exits(run, emission, pass, unit, state);
+        for (std::uint32_t patch : dark)
+            std::fill_n(&state.carried[patch * std::size_t(lanes(state.bands))], state.bands, 0);
         sweep.bundles(lattice, done, static_cast<std::uint32_t>(count));
         done += count;
         for (WorkerTotals& totals : run.banks.all_totals())

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "solve/pass.h"
 #include "solve/run.h"
 
@@ -11,7 +14,9 @@ namespace parallux {
 /// it. The sky stands at the ends of lines that leave the scene, an inert back is dark. What the
 /// first shots brought is not gathered. Dividing by the lines that really left takes the noise of
 /// their number away, and the error of the pass is smoothed by one more bounce. Moves no energy:
-/// the balance remains the pass's. Patches that no line leaves keep what the pass found.
-void closing_gather(const Run& run, TransferState& state, PassResult& pass);
+/// the balance remains the pass's. Patches that no line leaves keep what the pass found. The `dark`
+/// ones send nothing.
+void closing_gather(const Run& run, TransferState& state, std::span<const std::uint32_t> dark,
+                    PassResult& pass);
 
 }  // namespace parallux

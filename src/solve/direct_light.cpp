@@ -22,9 +22,8 @@ struct alignas(64) Totals {
 
 }  // namespace
 
-std::int64_t emitted_quanta(const Run& run, std::size_t k) {
-    return std::llrint(run.patches.area[k / run.patches.bands] * run.patches.emission[k] /
-                       run.plan.watts_per_quantum);
+std::int64_t emitted_quanta(const Patches& patches, double watts_per_quantum, std::size_t k) {
+    return std::llrint(patches.area[k / patches.bands] * patches.emission[k] / watts_per_quantum);
 }
 
 std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_t k) {
@@ -32,8 +31,8 @@ std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_
     std::int64_t unshot =
         reflected(run, k, run.banks.received(k / bands, static_cast<std::uint32_t>(k % bands)));
     if (direct.own)
-        unshot += emitted_quanta(run, k);
-    return direct.shot.empty() ? unshot : unshot - direct.shot[k];
+        unshot += emitted_quanta(run.patches, run.plan.watts_per_quantum, k);
+    return unshot - direct.sent_on(k);
 }
 
 void settle(const Run& run, DirectLight& direct) {

@@ -13,7 +13,7 @@ namespace parallux {
 struct DirectLight {
     bool own = false;      ///< the emission of the patches themselves is left for the pass
     bool arrived = false;  ///< there are local shots, and the banks hold what they brought
-    /// Quanta that single shots took from patches, patch · bands + band; empty: none.
+    /// Quanta that single shots and relays took from patches, patch · bands + band; empty: none.
     std::vector<std::int64_t> shot;
     std::vector<std::int64_t> emitted, absorbed, escaped, unshot;  ///< band totals
     std::vector<float> irradiance;  ///< W/m², patch · bands + band; empty: no light arrived
@@ -23,10 +23,12 @@ struct DirectLight {
     std::uint64_t shots = 0;  ///< from single patches
     bool settled = false;     ///< settle() has been called
     double done = 1;          ///< share of the sources' rays that was cast
+
+    std::int64_t sent_on(std::size_t k) const { return shot.empty() ? 0 : shot[k]; }
 };
 
 /// What a patch emits by itself, in quanta.
-std::int64_t emitted_quanta(const Run& run, std::size_t k);
+std::int64_t emitted_quanta(const Patches& patches, double watts_per_quantum, std::size_t k);
 
 /// What is unshot of one patch and band before settle(), k = patch * bands + band.
 std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_t k);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -104,14 +105,40 @@ std::vector<Emitter> all_cells(const Scene& scene, const Patches& patches) {
 
 PatchCells::PatchCells(const Scene& scene, const Patches& patches)
     : start_(patches.count() + 1, 0) {
-    for_all_cells(scene, patches, [&](const Emitter& piece, double) { ++start_[piece.patch + 1]; });
-    for (std::size_t patch = 0; patch < patches.count(); ++patch)
-        start_[patch + 1] += start_[patch];
+    fill(scene, patches);
+}
+
+PatchCells::PatchCells(const Scene& scene, const Patches& patches,
+                       std::vector<std::uint32_t> wanted)
+    : wanted_(std::move(wanted)), start_(wanted_.size() + 1, 0) {
+    if (!wanted_.empty())
+        fill(scene, patches);
+}
+
+std::size_t PatchCells::find(std::uint32_t patch) const {
+    if (wanted_.empty())
+        return std::min<std::size_t>(patch, count());
+    const auto found = std::lower_bound(wanted_.begin(), wanted_.end(), patch);
+    return found != wanted_.end() && *found == patch
+               ? static_cast<std::size_t>(found - wanted_.begin())
+               : count();
+}
+
+void PatchCells::fill(const Scene& scene, const Patches& patches) {
+    for_all_cells(scene, patches, [&](const Emitter& piece, double) {
+        if (const std::size_t place = find(piece.patch); place < count())
+            ++start_[place + 1];
+    });
+    for (std::size_t place = 0; place < count(); ++place)
+        start_[place + 1] += start_[place];
     cells_.resize(start_.back());
     share_.resize(start_.back());
     std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
     for_all_cells(scene, patches, [&](const Emitter& piece, double area) {
-        std::uint32_t at = next[piece.patch]++;
+        const std::size_t place = find(piece.patch);
+        if (place == count())
+            return;
+        const std::uint32_t at = next[place]++;
         cells_[at] = piece;
         share_[at] = area / patches.area[piece.patch];
     });
@@ -126,7 +153,7 @@ Emitters PatchCells::emitters(std::uint32_t patch, std::span<const std::int64_t>
     return emitters;
 }
 
-const Emitter& PatchCells::choose(std::uint32_t patch, double at) const {
+const Emitter& PatchCells::choose(std::size_t patch, double at) const {
     std::uint32_t cell = start_[patch], last = start_[patch + 1] - 1;
     while (cell < last && at >= share_[cell])
         at -= share_[cell++];

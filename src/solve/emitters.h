@@ -42,19 +42,30 @@ Emitters emitters_of(const Scene& scene, const Patches& patches,
 /// All cells and sides, surface by surface.
 std::vector<Emitter> all_cells(const Scene& scene, const Patches& patches);
 
-/// All cells, patch by patch, for shots from single patches. 100 bytes a cell.
+/// The cells of patches, patch by patch, for shots from single patches. 100 bytes a cell.
 class PatchCells {
 public:
+    /// Of all patches.
     PatchCells(const Scene& scene, const Patches& patches);
+    /// Of those named, in ascending order; they go by their place there. Linear in all cells.
+    PatchCells(const Scene& scene, const Patches& patches, std::vector<std::uint32_t> wanted);
 
     /// The cells of one patch, which has the powers given.
     Emitters emitters(std::uint32_t patch, std::span<const std::int64_t> power) const;
 
     /// The cell of a patch that a number of [0, 1) chooses, by area.
-    const Emitter& choose(std::uint32_t patch, double at) const;
+    const Emitter& choose(std::size_t patch, double at) const;
+
+    /// How many patches there are here.
+    std::size_t count() const { return start_.size() - 1; }
+    /// The place of a patch among those named; count() when it is not.
+    std::size_t find(std::uint32_t patch) const;
 
 private:
-    std::vector<std::uint32_t> start_;  // patches + 1 offsets
+    void fill(const Scene& scene, const Patches& patches);
+
+    std::vector<std::uint32_t> wanted_;  // empty: all
+    std::vector<std::uint32_t> start_;   // count() + 1 offsets
     std::vector<Emitter> cells_;
     std::vector<double> share_;  // of the patch's area
 };

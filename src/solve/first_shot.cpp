@@ -16,35 +16,63 @@ namespace {
 // Rays that were stopped early stand for those not cast: a prefix of the sequence is a sample too.
 void stand_for_all(const Run& run, DirectLight& direct) {
     run.banks.scale(1 / direct.done);
+    // Rounded down, so that no patch has sent more than it reflects.
+    for (std::int64_t& shot : direct.shot)
+        shot = static_cast<std::int64_t>(static_cast<double>(shot) / direct.done);
     for (std::uint32_t band = 0; band < run.patches.bands; ++band) {
         direct.escaped[band] = std::llrint(static_cast<double>(direct.escaped[band]) / direct.done);
         direct.emitted[band] = direct.escaped[band];
         for (std::size_t patch = 0; patch < run.patches.count(); ++patch)
-            direct.emitted[band] += run.banks.received(patch, band);
+            direct.emitted[band] +=
+                run.banks.received(patch, band) - direct.sent_on(patch * run.patches.bands + band);
     }
+}
+
+// What the patches emit by themselves.
+Emitters own_emitters(const Scene& scene, const Patches& patches, double watts_per_quantum) {
+    return emitters_of(scene, patches, [&](std::size_t k) {
+        return emitted_quanta(patches, watts_per_quantum, k);
+    });
 }
 
 // All sources at once.
 void shoot_sources(const Run& run, DirectLight& direct) {
-    Emitters emitters =
-        emitters_of(run.scene, run.patches, [&](std::size_t k) { return emitted_quanta(run, k); });
+    if (run.exact) {
+        run.exact->shoot(run, direct.emitted, direct.escaped);
+        direct.arrived = true;
+        return;
+    }
+    Emitters emitters = own_emitters(run.scene, run.patches, run.plan.watts_per_quantum);
     if (emitters.pieces.empty())
         return;
     direct.arrived = true;
-    if (run.plan.first_shot == FirstShot::exact) {
-        shoot_exact(run, emitters, direct.emitted, direct.escaped);
-        return;
-    }
+    Relays relays(run.scene, run.patches, run.plan.threads);
     direct.done =
-        shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed,
+        shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed, &relays,
                    [&](double done) { return run.listener.go_on("first shot", done, 0); });
     direct.rays = run.plan.first_shot_rays;
     run.banks.take_totals(direct.emitted, direct.escaped);
+    if (!relays.empty()) {
+        direct.shot.assign(run.patches.reflectance.size(), 0);
+        relays.add_to(direct.shot);
+    }
     if (direct.done < 1)
         stand_for_all(run, direct);
 }
 
 }  // namespace
+
+std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patches,
+                                         const RayScene* rays, const Plan& plan) {
+    if (plan.first_shot != FirstShot::exact || !rays)
+        return nullptr;
+    const Emitters emitters = own_emitters(scene, patches, plan.watts_per_quantum);
+    if (emitters.pieces.empty())
+        return nullptr;
+    return std::make_unique<ExactShot>(
+        scene, patches, *rays, std::make_shared<std::vector<Emitter>>(all_cells(scene, patches)),
+        emitters, plan.threads);
+}
 
 DirectLight first_shot(const Run& run) {
     DirectLight direct;
@@ -55,7 +83,8 @@ DirectLight first_shot(const Run& run) {
     direct.own = run.plan.first_shot == FirstShot::off;
     if (direct.own) {
         for (std::size_t k = 0; k < run.patches.emission.size(); ++k)
-            direct.emitted[k % run.patches.bands] += emitted_quanta(run, k);
+            direct.emitted[k % run.patches.bands] +=
+                emitted_quanta(run.patches, run.plan.watts_per_quantum, k);
     } else {
         shoot_sources(run, direct);
     }

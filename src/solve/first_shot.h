@@ -1,9 +1,16 @@
 #pragma once
 
+#include <memory>
+
 #include "solve/direct_light.h"
 #include "solve/run.h"
+#include "solve/shot_exact.h"
 
 namespace parallux {
+
+/// What exact first shots of all groups share; null where the plan wants none or nothing emits.
+std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patches,
+                                         const RayScene* rays, const Plan& plan);
 
 /// Finds direct light locally, as the settings want it: from the emitting patches by rays or by
 /// exact form factors, from lights without area by shadow rays. Then shoots again from the patches

@@ -43,7 +43,7 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     const double times = plan.groups * (settings.target_error > 0 ? most_rounds : 1);
     plan.watts_per_quantum =
         quantum(times * power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
-    plan_shots(patches, settings, plan);
+    plan_shots(scene, patches, settings, plan);
     return plan;
 }
 

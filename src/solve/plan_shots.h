@@ -6,7 +6,8 @@ namespace parallux {
 
 /// Settles how direct light is found and with how many rays, and the rays of later shots and of
 /// the methods that send nothing else. Takes the plan's lines.
-void plan_shots(const Patches& patches, const SolveSettings& settings, Plan& plan);
+void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings& settings,
+                Plan& plan);
 
 /// Whether the method casts single rays or lines, or has lights that do.
 bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings);

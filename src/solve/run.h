@@ -73,6 +73,8 @@ private:
     bool stopped_ = false;
 };
 
+class ExactShot;
+
 /// What all stages of one solve work on.
 struct Run {
     const Scene& scene;
@@ -82,6 +84,7 @@ struct Run {
     const RayScene* rays;  ///< null where the method needs none
     Banks& banks;
     Listener& listener;
+    const ExactShot* exact = nullptr;  ///< null unless first shots are exact
 };
 
 }  // namespace parallux

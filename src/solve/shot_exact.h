@@ -1,20 +1,79 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "lines/ray_scene.h"
 #include "solve/emitters.h"
 #include "solve/run.h"
+#include "solve/sources.h"
 
 namespace parallux {
 
-/// Sends the power of the emitters by exact form factors: in closed form where nothing stands
-/// between (rectangles, and convex polygons by contour integration), times the visible share of the
-/// kernel over 1024 pairs of points where shadow rays find something between. Adds to the banks,
-/// and to the totals of what was emitted and escaped; all that is emitted is received or escapes,
-/// to the last quantum. Cells of one surface that emit alike are one emitter. O(emitters ·
-/// patches), in parallel.
-void shoot_exact(const Run& run, const Emitters& emitters, std::vector<std::int64_t>& emitted,
-                 std::vector<std::int64_t>& escaped);
+/// Direct light by form factors. Where nothing can stand between a source and a cell, their factor
+/// is exact, found once, and the same in every shot. Where something can, the cell's factor is a
+/// mean over random points, drawn anew for every shot, so that the spread of shots tells its error:
+/// in scenes of few surfaces, of the form factor from the point to what it sees of the source, in
+/// closed form; in others, the factor times the share of shadow rays between source and cell that
+/// arrive. Cells of one surface that emit alike are one source.
+class ExactShot {
+public:
+    /// Up to so many surfaces, what is hidden is cut away in closed form.
+    static constexpr std::size_t few_surfaces = 256;
+
+    /// All cells of the scene; shots from one patch after the other share them.
+    using Cells = std::shared_ptr<const std::vector<Emitter>>;
+
+    /// Sorts out which cells see which sources, and how many points or rays each pair that may be
+    /// hidden will take. Keeps the references. O(sources · cells), in parallel: 0.5 to 5 µs a pair
+    /// that faces each other.
+    ExactShot(const Scene& scene, const Patches& patches, const RayScene& rays, Cells cells,
+              const Emitters& emitters, unsigned threads);
+
+    /// Sends all power into the banks, and adds to the totals of what was emitted and escaped; all
+    /// that is emitted is received or escapes, to the last quantum. In a scene that lets nothing
+    /// out, what was found at random is scaled so that all is received.
+    void shoot(const Run& run, std::vector<std::int64_t>& emitted,
+               std::vector<std::int64_t>& escaped) const;
+
+private:
+    // A source and a cell with something between them.
+    struct Pair {
+        std::uint32_t cell;
+        std::uint32_t samples;          // a grid's side in points; or rays
+        std::uint32_t first, blockers;  // in blockers_
+        double factor;                  // with nothing between; of rays
+    };
+    // A cell that all of a source arrives at which is sent there.
+    struct Seen {
+        std::uint32_t cell;
+        double factor;
+    };
+    // Of one source.
+    struct View {
+        std::vector<Seen> seen;
+        std::vector<Pair> pairs;
+        double sum = 0;       // of what is seen
+        bool closed = false;  // nothing escapes
+    };
+    struct Chunk;
+
+    const std::vector<Emitter>& cells() const { return *cells_; }
+    View view_of(std::size_t source);
+    void look(std::size_t source, std::size_t begin, std::size_t end, Chunk& chunk) const;
+    std::vector<double> factors_of(std::size_t source, std::uint64_t seed) const;
+    bool sees_only_patches(const Source& source) const;
+
+    const Scene& scene_;
+    const Patches& patches_;
+    const RayScene& rays_;
+    Cells cells_;
+    unsigned threads_;
+    std::vector<Source> sources_;
+    std::vector<Polygon> surfaces_;        // that may hide, where they are few; else empty
+    std::vector<std::uint32_t> blockers_;  // surfaces
+    std::vector<View> views_;
+};
 
 }  // namespace parallux

@@ -13,6 +13,7 @@
 #include "solve/first_shot.h"
 #include "solve/global_pass.h"
 #include "solve/in_order_pass.h"
+#include "solve/local_gather.h"
 #include "solve/plan_shots.h"
 #include "solve/run.h"
 
@@ -59,8 +60,12 @@ void run_group(const Run& run, DirectLight& direct, Estimate& estimate, Seconds&
     seconds.global += passed;
     seconds.serial += passed - (seconds_in_loops() - loops_before);
 
-    // Gather along fresh lines what all patches send by then.
-    closing_gather(run, state, pass);
+    // Gather along fresh lines what all patches send by then, and along local rays where patches
+    // are too small for lines.
+    std::vector<SmallPatch> small = small_patches(run, state, pass);
+    gather_locally(run, state, pass, small);
+    closing_gather(run, state, numbers_of(small), pass);
+    shoot_locally(run, state, small, pass);
     if (estimate.groups() == 0 || pass.whole)
         estimate.add(run, direct, pass);
     run.banks.clear(run.plan.threads);
@@ -93,6 +98,9 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     DirectLight direct;
     Estimate estimate(patches);
     Seconds seconds;
+    Watch watch;
+    const std::unique_ptr<ExactShot> exact = prepare_exact(scene, patches, rays.get(), plan);
+    seconds.first_shot += watch.lap();
     SolveSettings own = settings;
     for (std::uint32_t round = 1;; ++round) {
         // Run groups of their own seeds, each a whole solution.
@@ -102,8 +110,8 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
             own.seed = group_seed(settings.seed, estimate.groups());
             const auto from = static_cast<double>(before + group * plan.bundles);
             listener.begin_part(from / end, (from + static_cast<double>(plan.bundles)) / end);
-            run_group({scene, patches, own, plan, rays.get(), banks, listener}, direct, estimate,
-                      seconds);
+            run_group({scene, patches, own, plan, rays.get(), banks, listener, exact.get()}, direct,
+                      estimate, seconds);
         }
         if (estimate.bundles() < before + plan.groups * plan.bundles) {
             estimate.stop();
@@ -118,7 +126,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     }
 
     // The groups' mean is the result, their spread its error.
-    Watch watch;
+    watch.lap();
     Solution solution = estimate.solution(plan);
     seconds.gather += watch.lap();
     solution.seconds = seconds;

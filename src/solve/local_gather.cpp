@@ -1,0 +1,208 @@
+#include "solve/local_gather.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "parallel.h"
+#include "random.h"
+#include "solve/emitters.h"
+#include "solve/plan_lines.h"
+#include "solve/shot_rays.h"
+
+namespace parallux {
+
+std::vector<std::uint32_t> numbers_of(const std::vector<SmallPatch>& small) {
+    std::vector<std::uint32_t> numbers;
+    for (const SmallPatch& one : small)
+        numbers.push_back(one.patch);
+    return numbers;
+}
+
+namespace {
+
+constexpr std::uint32_t paths = 64;
+constexpr double few_lines = 32;
+
+// W/m² of patch and band that an exit carries in the gather.
+double sent(const Run& run, const Emission& emission, const PassResult& pass, std::size_t k) {
+    return emission.of_exit(run.patches, k) +
+           static_cast<double>(run.patches.reflectance[k]) * pass.irradiance[k];
+}
+
+// What paths from small patches find.
+class LocalPaths {
+public:
+    LocalPaths(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
+               const PassResult& pass)
+        : run_(run), emission_(state.emission), pass_(pass), cells_(run.scene, run.patches, [&] {
+              std::vector<std::uint32_t> wanted;
+              for (const SmallPatch& one : small)
+                  wanted.push_back(one.patch);
+              return wanted;
+          }()) {
+        emission_.quanta = 1;
+    }
+
+    // Adds what arrives at the k-th small patch along one path, W/m² a band.
+    void add_path(std::size_t k, Random& random, std::array<double, max_bands>& arrived) const {
+        constexpr int longest = 64;
+        const std::uint32_t bands = run_.patches.bands;
+        std::array<double, max_bands> kept;
+        kept.fill(1);
+        for (int bounce = 0; bounce < longest; ++bounce) {
+            const Emitter& from = cells_.choose(k, random.uniform());
+            const double a = random.uniform(), b = random.uniform(), c = random.uniform(),
+                         d = random.uniform();
+            const glm::dvec3 direction = cosine_direction(emitter_normal(run_.scene, from), c, d);
+            const SurfaceHit hit =
+                run_.rays->closest(point_on(run_.scene, from, a, b), direction,
+                                   std::numeric_limits<double>::infinity(), from.surface);
+            if (hit.surface == none) {
+                const Spectrum sky = run_.scene.sky.radiance(direction);
+                for (std::uint32_t band = 0; band < bands; ++band)
+                    arrived[band] += kept[band] * pi * sky[band];
+                return;
+            }
+            const std::uint32_t patch = patch_of(run_.scene, run_.patches, hit);
+            if (patch == none)
+                return;
+            // A small patch sends what it emits, and what another ray from it will find.
+            const std::size_t next = bounce + 1 < longest ? cells_.find(patch) : cells_.count();
+            for (std::uint32_t band = 0; band < bands; ++band) {
+                const std::size_t at = std::size_t(patch) * bands + band;
+                const double reflectance = run_.patches.reflectance[at];
+                arrived[band] += kept[band] * emission_.of_exit(run_.patches, at);
+                if (next == cells_.count())
+                    arrived[band] += kept[band] * reflectance * pass_.irradiance[at];
+                kept[band] *= reflectance;
+            }
+            if (next == cells_.count())
+                return;
+            k = next;
+        }
+    }
+
+private:
+    const Run& run_;
+    Emission emission_;
+    const PassResult& pass_;
+    PatchCells cells_;
+};
+
+}  // namespace
+
+std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state,
+                                      const PassResult& pass) {
+    const Plan& plan = run.plan;
+    const Patches& patches = run.patches;
+    if (!run.rays || plan.gathering == 0 || !pass.whole)
+        return {};
+    const double lines_a_bundle = pi * plan.sphere.radius * plan.sphere.radius / plan.cell;
+    const auto most =
+        static_cast<std::size_t>(3e-4 * lines_a_bundle * static_cast<double>(plan.bundles));
+    const double below = mean_area(patches) / 16;
+    const double exits_an_area = static_cast<double>(plan.gathering) / (2 * plan.cell);
+    Emission emission = state.emission;
+    emission.quanta = 1;
+    struct Found {
+        double weight;
+        std::uint32_t patch;
+    };
+    std::vector<Found> found;
+    double power = 0, all = 0, brightest = 0;
+    for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
+        const double area = patches.area[patch], exits = area * exits_an_area;
+        double square = 0;
+        for (std::uint32_t band = 0; band < patches.bands; ++band)
+            square +=
+                std::pow(sent(run, emission, pass, patch * std::size_t(patches.bands) + band), 2);
+        if (area < below && exits < few_lines) {
+            found.push_back({area * square / (exits + 1), patch});
+            brightest = std::max(brightest, square);
+        } else {
+            power += area * square;
+        }
+        all += area;
+    }
+    // Where all are as bright as others, lines do as well, and exactly so where light is uniform.
+    constexpr double bright = 4;
+    if (!(brightest * all > bright * bright * power))
+        return {};
+    if (found.size() > most) {
+        std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(most),
+                         found.end(), [](const Found& a, const Found& b) {
+                             return a.weight != b.weight ? a.weight > b.weight : a.patch < b.patch;
+                         });
+        found.resize(most);
+    }
+    std::vector<SmallPatch> chosen;
+    for (const Found& one : found)
+        chosen.push_back({one.patch, {}});
+    std::sort(chosen.begin(), chosen.end(),
+              [](const SmallPatch& a, const SmallPatch& b) { return a.patch < b.patch; });
+    return chosen;
+}
+
+void gather_locally(const Run& run, const TransferState& state, const PassResult& pass,
+                    std::vector<SmallPatch>& small) {
+    if (small.empty())
+        return;
+    const LocalPaths local(run, state, small, pass);
+    parallel_for(run.plan.threads, small.size(), 4,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     DenormalsOff guard;
+                     for (std::size_t k = begin; k < end; ++k) {
+                         Random random(run.settings.seed, stream::local_gather + small[k].patch);
+                         for (std::uint32_t path = 0; path < paths; ++path)
+                             local.add_path(k, random, small[k].irradiance);
+                         for (double& irradiance : small[k].irradiance)
+                             irradiance /= paths;
+                     }
+                 });
+}
+
+void shoot_locally(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
+                   PassResult& pass) {
+    if (small.empty() || !pass.whole)
+        return;
+    const Patches& patches = run.patches;
+    const std::uint32_t bands = patches.bands;
+    // What the paths have found, in place of what lines did.
+    for (const SmallPatch& one : small) {
+        for (std::uint32_t band = 0; band < bands; ++band)
+            pass.irradiance[one.patch * std::size_t(bands) + band] =
+                static_cast<float>(one.irradiance[band]);
+        pass.crossings[one.patch] += paths;
+    }
+    // What they send, to all others: what they send each other the paths have brought.
+    const std::vector<std::uint32_t> numbers = numbers_of(small);
+    Emission emission = state.emission;
+    emission.quanta = 1;
+    const Emitters emitters = emitters_of(run.scene, patches, [&](std::size_t k) -> std::int64_t {
+        const auto patch = static_cast<std::uint32_t>(k / bands);
+        if (!std::binary_search(numbers.begin(), numbers.end(), patch))
+            return 0;
+        return std::llrint(patches.area[patch] * sent(run, emission, pass, k) /
+                           run.plan.watts_per_quantum);
+    });
+    if (emitters.pieces.empty())
+        return;
+    run.banks.clear(run.plan.threads);
+    shoot_rays(run, emitters, std::uint64_t(paths) * small.size(),
+               mix64(run.settings.seed ^ stream::local_gather), nullptr,
+               [](double) { return true; });
+    for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
+        if (std::binary_search(numbers.begin(), numbers.end(), patch))
+            continue;
+        for (std::uint32_t band = 0; band < bands; ++band)
+            pass.irradiance[patch * std::size_t(bands) + band] +=
+                static_cast<float>(static_cast<double>(run.banks.received(patch, band)) *
+                                   run.plan.watts_per_quantum / patches.area[patch]);
+    }
+    for (WorkerTotals& totals : run.banks.all_totals())
+        totals = {};
+}
+
+}  // namespace parallux
