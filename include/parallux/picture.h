@@ -33,7 +33,11 @@ struct Picture {
     std::vector<float> albedo;      ///< per band
     std::vector<float> normal;      ///< 3 a pixel, world, towards the camera
     std::vector<float> patch;       ///< patch id at the pixel's centre; -1: none
-    std::vector<float> stderror;    ///< per band of B; empty when the solution has none
+    /// Per band, W/m²: standard error of the radiosity B of the patches that the samples see, as
+    /// the solution states it; 0 where they see none. Not smoothed: what a value that is
+    /// interpolated from several patches errs by, the solution does not tell. Beside radiance it
+    /// has to be divided by π. Empty when the solution has none.
+    std::vector<float> stderror;
 };
 
 /// The camera to use: by name, else by index; "" gives the first, or one that shows the whole scene

@@ -36,7 +36,9 @@ struct SolveSettings {
     Method method = Method::bundles;
     Direction direction = Direction::bidirectional;
     FirstShot first_shot = FirstShot::automatic;
-    std::uint64_t first_shot_rays = 0;  ///< 0: grows with the lines
+    /// 0: grows with the lines. Of a run to a stated error: for as many bundles as its first round
+    /// has, in later ones in proportion to theirs.
+    std::uint64_t first_shot_rays = 0;
     std::uint64_t shots = 0;     ///< then so many more, each from the patch with most unshot power
     std::uint64_t bundles = 0;   ///< 0: from `lines`, else 4096
     std::uint64_t lines = 0;     ///< wanted total, or local rays; 0: from `bundles`
@@ -51,7 +53,9 @@ struct SolveSettings {
     /// leaves the error unknown.
     std::uint32_t groups = 0;
     /// Runs until the relative RMS is below this with 95 % confidence, in place of a number of
-    /// bundles; 0: off. Of bundles alone, and not of one group.
+    /// bundles; 0: off. Of bundles alone, and not of one group. The first round has `groups` groups
+    /// of the least bundles that have no bias of their own, later ones as much as is expected to be
+    /// missing; a run that is not there after its last round ends with a larger bound.
     double target_error = 0;
     DirectionSet directions = DirectionSet::lattice;
     std::uint64_t seed = 1;
@@ -61,12 +65,24 @@ struct SolveSettings {
     double sphere_radius = 0;      ///< of independent lines; 0: the scene's
 };
 
+/// What a run to a stated error still needs, as its rounds so far tell.
+struct Forecast {
+    double error = 0;           ///< the relative RMS is below this with 95 % confidence
+    double target = 0;          ///< and should be below this
+    double seconds_so_far = 0;  ///< since the solve began
+    std::uint64_t bundles = 0;  ///< expected to be missing
+    double seconds = 0;         ///< that they take at the pace so far
+};
+
 /// Where a solve stands; given to the callback now and then, always from the calling thread.
 struct Progress {
     const char* stage = "";   ///< "first shot", "bundles", "lines", "shots", "particles" …
     double done = 0;          ///< 0 … 1 of the stage
     std::uint64_t lines = 0;  ///< so far
     double seconds = 0;       ///< since the stage began
+    /// Set in one call after each round of a run to a stated error that another one follows; gone
+    /// after the call.
+    const Forecast* forecast = nullptr;
 };
 
 /// Returns false to stop after the current batch; the result is then marked partial.
@@ -109,11 +125,24 @@ struct Solution {
     std::vector<std::string> warnings;
 };
 
+/// Looks at a run under way. Each of its groups is a whole solution, so that the mean of those that
+/// are done has no bias, only a larger error; before the first one is done there is nothing to
+/// show.
+struct Preview {
+    double every = 0;  ///< seconds, at least, from the start to the first and from one to the next
+    /// What the groups so far come to, marked partial; without stderror from one group alone.
+    /// Called from the calling thread, between groups, which wait; not after the last. What it
+    /// throws ends the run. Each call takes the memory of another Solution, which
+    /// predicted_memory() leaves out.
+    std::function<void(const Solution&)> show;
+};
+
 /// Solves H = F B, B = E + ρ H. Equal scene, patches and settings give equal bits on any number of
-/// threads. Storage is linear in the patches, but for the matrix. Throws Fault::memory before
-/// taking more than max_memory, Fault::usage for settings that contradict each other.
+/// threads, previewed or not. Storage is linear in the patches, but for the matrix. Throws
+/// Fault::memory before taking more than max_memory, Fault::usage for settings that contradict each
+/// other.
 Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& settings,
-               const ProgressCallback& progress = {});
+               const ProgressCallback& progress = {}, const Preview& preview = {});
 
 /// The name of a method, as options and statistics have it.
 const char* method_name(Method method);

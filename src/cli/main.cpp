@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
+#include "cli/refresh.h"
 #include "cli/summary.h"
 #include "cli/terminal.h"
 
@@ -13,6 +14,21 @@ using namespace parallux;
 namespace {
 
 constexpr int exit_above_tolerance = 1;
+
+// Says so where it is not.
+bool target_met(const SolveSettings& settings, const Solution& solution) {
+    const bool known = solution.groups > 1;
+    if (settings.target_error <= 0 ||
+        (known && solution.relative_rms_bound <= settings.target_error))
+        return true;
+    complain("parallux: target not met: " +
+             (known ? "with 95 % confidence the error is only below " +
+                          percent(solution.relative_rms_bound)
+                    : std::string("the error is not known")) +
+             ", " + percent(settings.target_error) + " was wanted" +
+             (settings.time_limit > 0 ? "; a longer --time-limit would help" : ""));
+    return false;
+}
 
 int solve_scene(const SolveOptions& options) {
     check_outputs(options);
@@ -23,8 +39,9 @@ int solve_scene(const SolveOptions& options) {
     const double divided = seconds_since_start();
 
     keep_results();
-    ProgressReport report(options.progress);
-    Solution solution = solve(scene, patches, options.solve, std::ref(report));
+    ProgressReport report(options.progress, options.quiet);
+    Refresh refresh(options, scene, patches, report);
+    Solution solution = solve(scene, patches, options.solve, std::ref(report), refresh.preview());
     report.end();
     solution.seconds.load = loaded;
     solution.seconds.patches = divided - loaded;
@@ -32,15 +49,11 @@ int solve_scene(const SolveOptions& options) {
     write_outputs(options, scene, patches, solution);
     if (!options.quiet)
         tell_summary(options, scene, patches, solution);
-    const double target = options.solve.target_error;
-    if (target > 0 && (solution.groups < 2 || solution.relative_rms_bound > target)) {
-        complain("parallux: target not met: the error is not known to be below it");
-        return exit_above_tolerance;
+    if (interrupted()) {
+        complain("parallux: interrupted; the outputs hold what was done until then");
+        return exit_interrupted;
     }
-    if (!interrupted())
-        return 0;
-    complain("parallux: interrupted; the outputs hold what was done until then");
-    return exit_interrupted;
+    return target_met(options.solve, solution) ? 0 : exit_above_tolerance;
 }
 
 int compare(const CompareOptions& options) {

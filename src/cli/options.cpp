@@ -115,6 +115,11 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
     of_picture(add(app, "--samples", "N", "Camera rays a pixel [16]", [&](auto& v) {
         picture.samples = static_cast<std::uint32_t>(parse_count("--samples", v, 1, 65536));
     }));
+    of_picture(
+        add(app, "--refresh", "S",
+            "Rewrite the pictures while the run goes on, with what the groups of bundles done "
+            "so far come to, at most every S seconds [off]",
+            [&](auto& v) { o.refresh = parse_positive("--refresh", v); }));
     of_picture(app.add_flag("--flat", picture.flat, "Show the patches unsmoothed"));
 }
 
@@ -153,7 +158,9 @@ void add_method(CLI::App& app, SolveSettings& s) {
         "Direct light by rays, exact (form factors; emitters × patches), or none [exact in scenes "
         "of few surfaces and sources, else rays]",
         [&](auto& v) { s.first_shot = parse_first_shot(v); });
-    option("--first-shot-rays", "N", "Rays of the first shot [grows with the lines]",
+    option("--first-shot-rays", "N",
+           "Rays of the first shot; with --target-error of its first round, more in proportion in "
+           "longer ones [grows with the lines]",
            [&](auto& v) { s.first_shot_rays = parse_count("--first-shot-rays", v, 1); });
     option("--shots", "N", "Then so many more, from the patches with most unshot power [0]",
            [&](auto& v) { s.shots = parse_count("--shots", v, 0); });
@@ -163,9 +170,11 @@ void add_method(CLI::App& app, SolveSettings& s) {
         option("--lines", "N", "Lines in all, rays or particles of the methods that send those",
                [&](auto& v) { s.lines = parse_count("--lines", v, 1); });
     lines->excludes(bundles);
-    option("--target-error", "R",
-           "Run until the relative RMS is below this with 95 % confidence, as 0.01",
-           [&](auto& v) { s.target_error = parse_real("--target-error", v, 1e-6, 1); })
+    option(
+        "--target-error", "R",
+        "Run until the relative RMS is below this with 95 % confidence, as 0.01; exit with 1 when "
+        "that is not reached",
+        [&](auto& v) { s.target_error = parse_real("--target-error", v, 1e-6, 1); })
         ->excludes(bundles)
         ->excludes(lines);
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
@@ -244,6 +253,8 @@ void settle(SolveOptions& o) {
         o.solve.first_shot == FirstShot::rays || o.solve.first_shot == FirstShot::automatic;
     contradict(!shot_by_rays && o.solve.first_shot_rays > 0,
                "--first-shot-rays needs --first-shot rays");
+    contradict(o.refresh > 0 && (o.solve.method != Method::bundles || o.solve.groups == 1),
+               "--refresh needs --method bundles and more than one group");
     bool independent = o.solve.method == Method::lines || o.solve.method == Method::matrix;
     contradict(!independent && o.solve.sphere_radius > 0,
                "--sphere-radius needs --method lines or matrix");

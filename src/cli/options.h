@@ -31,6 +31,7 @@ struct SolveOptions {
     PictureSettings picture;
     std::string camera;  ///< name or index; "": the first
     std::vector<std::filesystem::path> images;
+    double refresh = 0;  ///< seconds between pictures while the run goes on; 0: none
     std::filesystem::path table, stats;  ///< empty: not wanted
     ProgressMode progress = ProgressMode::automatic;
     bool quiet = false;

@@ -26,11 +26,25 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     return absolute(a) == absolute(b);
 }
 
-void write_image(const std::filesystem::path& file, const Picture& picture,
-                 const PictureSettings& settings) {
-    WritingFile guard;
-    write_picture(file, picture, settings);
-}
+// Goes on after a failure, and throws the first one when asked to.
+class Attempts {
+public:
+    void operator()(const std::function<void()>& write) {
+        try {
+            write();
+        } catch (...) {
+            if (!failure_)
+                failure_ = std::current_exception();
+        }
+    }
+    void rethrow() const {
+        if (failure_)
+            std::rethrow_exception(failure_);
+    }
+
+private:
+    std::exception_ptr failure_;
+};
 
 }  // namespace
 
@@ -65,31 +79,30 @@ void check_camera(const SolveOptions& options, Scene& scene) {
             "cameras to the scene and choose one with --camera NAME or INDEX");
 }
 
+void write_images(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                  const Solution& solution) {
+    const Picture picture =
+        render(scene, patches, solution, choose_camera(scene, options.camera), options.picture);
+    Attempts attempt;
+    for (const std::filesystem::path& file : options.images)
+        attempt([&] {
+            WritingFile guard;
+            write_picture(file, picture, options.picture);
+        });
+    attempt.rethrow();
+}
+
 void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,
                    Solution& solution) {
     const double before = seconds_since_start();
-    std::exception_ptr failure;
-    auto attempt = [&](const std::function<void()>& write) {
-        try {
-            write();
-        } catch (...) {
-            if (!failure)
-                failure = std::current_exception();
-        }
-    };
-
+    Attempts attempt;
     if (!options.table.empty())
         attempt([&] {
             WritingFile guard;
             write_table(options.table, scene, patches, solution);
         });
     if (!options.images.empty())
-        attempt([&] {
-            Picture picture = render(scene, patches, solution, choose_camera(scene, options.camera),
-                                     options.picture);
-            for (const std::filesystem::path& file : options.images)
-                attempt([&] { write_image(file, picture, options.picture); });
-        });
+        attempt([&] { write_images(options, scene, patches, solution); });
     solution.seconds.total = seconds_since_start();
     solution.seconds.output = solution.seconds.total - before;
     if (!options.stats.empty())
@@ -97,8 +110,7 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
             WritingFile guard;
             write_stats(options.stats, scene, patches, options.solve, solution);
         });
-    if (failure)
-        std::rethrow_exception(failure);
+    attempt.rethrow();
 }
 
 }  // namespace parallux

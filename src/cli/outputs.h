@@ -12,6 +12,11 @@ void check_outputs(const SolveOptions& options);
 /// to choose. Throws Fault::usage.
 void check_camera(const SolveOptions& options, Scene& scene);
 
+/// Draws the picture and writes it to every file wanted. A file that cannot be written keeps none
+/// of the others back; the first failure is thrown at the end.
+void write_images(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                  const Solution& solution);
+
 /// Writes all that is wanted, the statistics last and with the time that the others took. A file
 /// that cannot be written keeps none of the others back; the first failure is thrown at the end.
 void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,

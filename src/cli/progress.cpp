@@ -39,18 +39,38 @@ std::string describe(const Progress& p) {
     return text;
 }
 
+std::string formatted(const char* format, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string time(double seconds) {
+    return formatted(seconds < 10 ? "%.1f s" : "%.0f s", seconds);
+}
+
 std::string object(const Progress& p) {
     Json line = {{"stage", p.stage},     {"done", p.done},
                  {"lines", p.lines},     {"lines_per_second", rate(p)},
                  {"seconds", p.seconds}, {"seconds_left", nullptr}};
     if (left(p) >= 0)
         line["seconds_left"] = left(p);
+    if (const Forecast* f = p.forecast)
+        line["forecast"] = {{"error", f->error},
+                            {"target", f->target},
+                            {"seconds_so_far", f->seconds_so_far},
+                            {"bundles", f->bundles},
+                            {"seconds", f->seconds}};
     return line.dump();
 }
 
 }  // namespace
 
-ProgressReport::ProgressReport(ProgressMode mode) {
+std::string percent(double share) {
+    return formatted("%.3g %%", 100 * share);
+}
+
+ProgressReport::ProgressReport(ProgressMode mode, bool quiet) : quiet_(quiet) {
     if (mode == ProgressMode::json)
         form_ = Form::json;
     else if (mode == ProgressMode::on)
@@ -64,7 +84,11 @@ ProgressReport::~ProgressReport() {
 }
 
 bool ProgressReport::operator()(const Progress& progress) {
-    if (form_ != Form::off && due(progress)) {
+    if (progress.forecast && form_ == Form::json) {
+        complain(object(progress));
+    } else if (progress.forecast) {
+        tell(*progress.forecast);
+    } else if (form_ != Form::off && due(progress)) {
         if (form_ == Form::bar)
             draw_bar(progress);
         else if (form_ == Form::json)
@@ -103,6 +127,15 @@ void ProgressReport::draw_bar(const Progress& progress) {
                  describe(progress).c_str());
     std::fflush(stderr);
     open_ = true;
+}
+
+void ProgressReport::tell(const Forecast& forecast) {
+    if (quiet_)
+        return;
+    end();
+    stage_.clear();  // what comes is told anew
+    complain(percent(forecast.error) + " after " + time(forecast.seconds_so_far) + "; " +
+             percent(forecast.target) + " wanted: about " + time(forecast.seconds) + " more");
 }
 
 void ProgressReport::end() {

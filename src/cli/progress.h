@@ -7,11 +7,16 @@
 
 namespace parallux {
 
+/// "1.83 %".
+std::string percent(double share);
+
 /// Tells on standard error how far a solve is: a bar on a terminal, a line every 10 % elsewhere, or
-/// JSON lines. Called by solve(); answers false once the user has interrupted.
+/// JSON lines; and after a round of a run to a stated error how long it will take, unless it is to
+/// be quiet, also where it tells nothing else. Called by solve(); answers false once the user has
+/// interrupted.
 class ProgressReport {
 public:
-    explicit ProgressReport(ProgressMode mode);
+    ProgressReport(ProgressMode mode, bool quiet);
     ~ProgressReport();
     ProgressReport(const ProgressReport&) = delete;
     ProgressReport& operator=(const ProgressReport&) = delete;
@@ -26,7 +31,9 @@ private:
 
     bool due(const Progress& progress);
     void draw_bar(const Progress& progress);
+    void tell(const Forecast& forecast);
 
+    bool quiet_;
     Form form_ = Form::off;
     std::string stage_;
     int told_ = -1;      // tenths of the stage that a line has told

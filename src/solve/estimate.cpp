@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -31,15 +30,6 @@ void add(const Balance& part, Balance& total) {
     }
 }
 
-// What the ratio of two mean squares of so many degrees of freedom stays below with 95 %
-// (E. Paulson, 1942, after Wilson and Hilferty).
-double f_bound(double above, double below) {
-    constexpr double z = 1.6448536;
-    const double a = 2 / (9 * above), b = 2 / (9 * below);
-    const double root = std::sqrt((1 - b) * (1 - b) * a + (1 - a) * (1 - a) * b - z * z * a * b);
-    return std::pow(((1 - a) * (1 - b) + z * root) / ((1 - b) * (1 - b) - z * z * b), 3);
-}
-
 }  // namespace
 
 std::uint64_t group_seed(std::uint64_t seed, std::uint32_t group) {
@@ -55,7 +45,7 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
                          for (std::size_t k = begin; k < end; ++k)
                              irradiance[k] += direct.irradiance[k];
                      });
-    if (run.plan.groups > 1)
+    if (run.plan.groups > 1 || groups_ > 0)
         sketch(irradiance, static_cast<double>(pass.counts.lines), threads);
     if (groups_ == 0) {
         irradiance_ = std::move(irradiance);
@@ -159,18 +149,23 @@ double Estimate::relative_rms() const {
     return power > 0 ? std::sqrt(error / power) : 0;
 }
 
-double Estimate::error_bound() const {
+Foresight Estimate::foresight() const {
+    Foresight known;
     if (groups_ < 2)
-        return std::numeric_limits<double>::infinity();
-    const double alike = freedom();
-    return relative_rms() * std::sqrt(f_bound(alike, alike * (groups_ - 1)));
+        return known;
+    known.relative_rms = relative_rms();
+    known.alike = freedom();
+    for (const Sketch& sketch : sketches_)
+        known.lines.push_back(sketch.lines);
+    return known;
 }
 
 Solution Estimate::solution(const Plan& plan) {
     Solution solution = total_;
     if (groups_ > 1) {
-        solution.relative_rms = relative_rms();
-        solution.relative_rms_bound = error_bound();
+        const Foresight known = foresight();
+        solution.relative_rms = known.relative_rms;
+        solution.relative_rms_bound = known.bound();
         solution.stderror.resize(irradiance_.size());
         for (std::size_t k = 0; k < irradiance_.size(); ++k)
             solution.stderror[k] = static_cast<float>(deviation(k));

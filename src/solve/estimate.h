@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solve/direct_light.h"
+#include "solve/foresight.h"
 #include "solve/pass.h"
 #include "solve/run.h"
 
@@ -24,9 +25,9 @@ public:
     void add(const Run& run, const DirectLight& direct, PassResult& pass);
     std::uint32_t groups() const { return groups_; }
     std::uint64_t bundles() const { return total_.bundles; }
-    /// Relative RMS of all that does not emit and its bound of 95 %, as the solution will have
-    /// them; infinite from one group alone.
-    double error_bound() const;
+    /// The error as the solution will state it, and what it will be; of less than two groups
+    /// nothing is known, and its bound is infinite.
+    Foresight foresight() const;
     /// The next group was stopped before its end, and is left out.
     void stop() { total_.partial = true; }
 

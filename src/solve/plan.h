@@ -8,7 +8,7 @@
 namespace parallux {
 
 /// Rounds of a run to a stated error, at most.
-inline constexpr std::uint32_t most_rounds = 8;
+inline constexpr std::uint32_t most_rounds = 16;
 
 /// The numbers of a run, all settled before it begins.
 struct Plan {

@@ -54,11 +54,18 @@ public:
             stage_watch_ = last_;
         }
         last_ = Watch();
-        if (callback_ && !callback_({stage, done, lines, stage_watch_.seconds()}))
+        if (callback_ && !callback_({stage, done, lines, stage_watch_.seconds(), nullptr}))
             stopped_ = true;
         if (time_limit_ > 0 && total_.seconds() > time_limit_)
             stopped_ = true;
         return !stopped_;
+    }
+
+    /// A round is over, and what it tells of those to come is known.
+    void tell(Forecast forecast) {
+        forecast.seconds_so_far = total_.seconds();
+        if (callback_ && !callback_({stage_, to_, lines_, stage_watch_.seconds(), &forecast}))
+            stopped_ = true;
     }
 
     bool stopped() const { return stopped_; }

@@ -1,6 +1,5 @@
 #include "parallux/solve.h"
 
-#include <algorithm>
 #include <memory>
 
 #include "parallel.h"
@@ -15,7 +14,9 @@
 #include "solve/in_order_pass.h"
 #include "solve/local_gather.h"
 #include "solve/plan_shots.h"
+#include "solve/rounds.h"
 #include "solve/run.h"
+#include "solve/showing.h"
 
 // M. Sbert and X. Pueyo, A Global Algorithm for Linear Radiosity (LSI-93-37-R, 1993): as printed,
 // in parallel form over bundles of parallel lines, and beside the methods it is judged against.
@@ -72,24 +73,15 @@ void run_group(const Run& run, DirectLight& direct, Estimate& estimate, Seconds&
     seconds.gather += watch.lap();
 }
 
-// Bundles that a run to a stated error still needs: the error falls at least as the root of the
-// lines. More than half of those done, so that rounds are few, and 16 times as many at most,
-// because a forecast from few is rough. 0: none.
-std::uint64_t missing_bundles(const Estimate& estimate, const SolveSettings& settings) {
-    const double over = estimate.error_bound() / settings.target_error;
-    if (settings.target_error <= 0 || over <= 1)
-        return 0;
-    const double done = static_cast<double>(estimate.bundles());
-    return static_cast<std::uint64_t>(std::clamp(1.05 * over * over - 1, 0.5, 16.0) * done);
-}
-
 }  // namespace
 
 Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& settings,
-               const ProgressCallback& progress) {
+               const ProgressCallback& progress, const Preview& preview) {
     // Settle every number of the run.
     Plan plan = make_plan(scene, patches, settings);
+    Rounds rounds(scene, patches, settings, plan);
     Listener listener(progress, settings.time_limit);
+    Showing showing(preview);
     Banks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
@@ -102,11 +94,12 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     const std::unique_ptr<ExactShot> exact = prepare_exact(scene, patches, rays.get(), plan);
     seconds.first_shot += watch.lap();
     SolveSettings own = settings;
-    for (std::uint32_t round = 1;; ++round) {
+    for (;;) {
         // Run groups of their own seeds, each a whole solution.
         const std::uint64_t before = estimate.bundles();
         const auto end = static_cast<double>(before + plan.groups * plan.bundles);
         for (std::uint32_t group = 0; group < plan.groups && !listener.stopped(); ++group) {
+            showing.between_groups(estimate, plan, seconds);
             own.seed = group_seed(settings.seed, estimate.groups());
             const auto from = static_cast<double>(before + group * plan.bundles);
             listener.begin_part(from / end, (from + static_cast<double>(plan.bundles)) / end);
@@ -117,12 +110,9 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
             estimate.stop();
             break;
         }
-        // Where an error is wanted, go on with longer groups.
-        own.bundles = missing_bundles(estimate, settings);
-        if (own.bundles == 0 || round == most_rounds)
+        // Where an error is wanted, go on with as much as is missing.
+        if (!rounds.another(estimate, seconds, listener, plan))
             break;
-        own.groups = plan.groups;
-        plan = make_plan(scene, patches, own);
     }
 
     // The groups' mean is the result, their spread its error.

@@ -129,6 +129,41 @@ TEST_CASE("a flat picture is B / π of each patch") {
             CHECK(picture.radiance[3 * i] == doctest::Approx((i % 40 < 20 ? 1.5 : 0.5) / pi));
 }
 
+// Planted, each seen to fail: the error divided by π as radiance is; divided by the samples that
+// met a surface, not by all.
+TEST_CASE("the error layer is the standard error of the patches seen, unsmoothed") {
+    Case c;
+    c.material(Spectrum::constant(0.5f));
+    c.quad({-1, -2, 0}, {2, 0, 0}, {0, 4, 0}, 2, 1);  // the middle half of the picture's width
+    c.divide([](const dvec3& p, const dvec3&) { return 4 + p.x; });
+    Camera camera = from_above();
+    camera.orthographic_height = 4;
+    CHECK(shoot(c, camera, small()).stderror.empty());
+
+    // The same everywhere: as many times that as there is surface in the pixel.
+    c.solution.stderror.assign(c.solution.radiosity.size(), 0.25f);
+    Picture picture = shoot(c, camera, small());
+    for (std::size_t i = 0; i < 1600; ++i)
+        for (std::size_t b = 0; b < 3; ++b)
+            CHECK(picture.stderror[3 * i + b] == doctest::Approx(0.25 * picture.alpha[i]));
+    CHECK(picture.alpha[820] == 1);
+    CHECK(picture.alpha[805] == 0);
+
+    // Left and right, each band its own: a step, where irradiance goes up in a line.
+    for (std::size_t k = 0; k < 6; ++k)
+        c.solution.stderror[k] = static_cast<float>(k + 1);
+    const double left[] = {1, 2, 3}, right[] = {4, 5, 6};
+    picture = shoot(c, camera, small());
+    for (std::size_t i = 0; i < 1600; ++i) {
+        const std::size_t x = i % 40;
+        for (std::size_t b = 0; b < 3; ++b)
+            if ((x > 10 && x < 19) || (x > 20 && x < 29))
+                CHECK(picture.stderror[3 * i + b] ==
+                      doctest::Approx((x < 20 ? left : right)[b] * picture.alpha[i]));
+    }
+    CHECK(picture.irradiance[3 * 817] < picture.irradiance[3 * 818]);
+}
+
 // Planted error: samples that take their numbers from the worker and not from the pixel.
 TEST_CASE("equal pictures on any number of threads") {
     Case c;
