@@ -49,11 +49,11 @@ Json row_of(const Place& place, const Tally& tally, const Reference& reference, 
 Outcome coverage(const Options& options) {
     Outcome outcome;
     outcome.json = Json::array();
-    for (const std::string& name : options.scenes.empty() ? interval_places() : options.scenes) {
+    for (const std::string& name : options.chosen(interval_places(options.tiny))) {
         // Solve it over and over, and twice far longer.
         const Place place = make_place(name, options.tiny);
         SolveSettings settings = options.settings;
-        settings.bundles = options.bundles ? options.bundles : 2048;
+        settings.bundles = options.bundles_or(options.tiny ? 1024 : 2048);
         settings.groups = 8;
         const double longer = options.tiny ? 16 : options.times;
         const Reference reference = make_reference(

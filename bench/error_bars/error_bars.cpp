@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
     app.add_option("parts", parts, "Which ones: coverage, target, bias, slope [all]")
         ->check(CLI::IsMember(part_names()));
     std::vector<std::string> scenes = interval_places();
-    scenes.insert(scenes.end(), slope_places().begin(), slope_places().end());
+    for (const std::string& name : slope_places())
+        scenes.push_back(name);
     app.add_option("--scene", options.scenes, "Which ones [the part's own]")
         ->delimiter(',')
         ->check(CLI::IsMember(scenes));
@@ -84,6 +85,8 @@ int main(int argc, char** argv) {
     app.add_option("--bundles", options.bundles, "Of a run of coverage and bias [2048]");
     app.add_option("--times", options.times, "How much longer a reference is")
         ->capture_default_str();
+    app.add_option("--growth", options.growth,
+                   "Of slope: lines a patch go as bundles to this power, as set at 1024 [0]");
     app.add_option("--json", json, "Where to write what was measured");
     app.add_flag("--tiny", options.tiny, "Few runs, a few seconds");
     add_settings(app, options.settings);

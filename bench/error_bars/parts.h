@@ -17,12 +17,17 @@ struct Options {
     int seeds = 0;
     unsigned threads = 0;
     bool tiny = false;
-    std::vector<std::string> scenes;    ///< empty: the part's own
-    std::uint64_t bundles = 0;          ///< of a run of coverage
-    double times = 256;                 ///< how much longer each of the two references is
-    SolveSettings settings;             ///< of every run, but for its length
+    std::vector<std::string> scenes;  ///< empty: the part's own
+    std::uint64_t bundles = 0;        ///< of a run of coverage
+    double times = 256;               ///< how much longer each of the two references is
+    SolveSettings settings;           ///< of every run, but for its length
+    double growth = 0;  ///< of slope: lines a patch go as bundles to this power, as set at 1024
     std::vector<std::string> variants;  ///< of slope; empty: all
 
+    std::vector<std::string> chosen(const std::vector<std::string>& usual) const {
+        return scenes.empty() ? usual : scenes;
+    }
+    std::uint64_t bundles_or(std::uint64_t usual) const { return bundles ? bundles : usual; }
     int seeds_or(int usual, int few) const { return seeds ? seeds : tiny ? few : usual; }
 };
 

@@ -62,14 +62,16 @@ Place make_place(const std::string& name, bool tiny) {
     return place;
 }
 
-const std::vector<std::string>& interval_places() {
-    static const std::vector<std::string> names{"paper-456", "cornell-closed", "street"};
-    return names;
+std::vector<std::string> interval_places(bool tiny) {
+    if (tiny)
+        return {"cornell-closed", "street"};
+    return {"paper-456", "cornell-closed", "street"};
 }
 
-const std::vector<std::string>& slope_places() {
-    static const std::vector<std::string> names{"paper-600", "paper-1824", "paper-12150"};
-    return names;
+std::vector<std::string> slope_places(bool tiny) {
+    if (tiny)
+        return {"paper-600"};
+    return {"paper-600", "paper-1824", "paper-12150"};
 }
 
 }  // namespace parallux::error_bars

@@ -21,7 +21,7 @@ struct Place {
 /// and, for slopes, paper-600, paper-1824 and paper-12150. `tiny`: in fewer patches.
 Place make_place(const std::string& name, bool tiny);
 
-const std::vector<std::string>& interval_places();
-const std::vector<std::string>& slope_places();
+std::vector<std::string> interval_places(bool tiny = false);
+std::vector<std::string> slope_places(bool tiny = false);
 
 }  // namespace parallux::error_bars

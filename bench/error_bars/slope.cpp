@@ -118,11 +118,8 @@ void report(const Place& place, const Variant& variant, const std::vector<Point>
 Outcome slope(const Options& options) {
     Outcome outcome;
     outcome.json = Json::array();
-    const std::uint64_t longest = options.tiny ? 1024 : 8192;
-    const std::vector<std::string> tiny{"paper-600"};
-    for (const std::string& name : !options.scenes.empty() ? options.scenes
-                                   : options.tiny          ? tiny
-                                                           : slope_places()) {
+    const std::uint64_t longest = options.tiny ? 512 : 8192;
+    for (const std::string& name : options.chosen(slope_places(options.tiny))) {
         const Place place = make_place(name, options.tiny);
         const Reference reference =
             reference_of(place, SolveSettings{}, 32 * longest, options.threads);
@@ -142,9 +139,13 @@ Outcome slope(const Options& options) {
             settings.first_shot = variant.first_shot;
             settings.directions = variant.directions;
             std::vector<Point> points;
-            for (settings.bundles = 64; settings.bundles <= longest; settings.bundles *= 2)
+            for (settings.bundles = 64; settings.bundles <= longest; settings.bundles *= 2) {
+                settings.lines_per_patch =
+                    options.settings.lines_per_patch *
+                    std::pow(static_cast<double>(settings.bundles) / 1024, options.growth);
                 points.push_back(
                     measure(place, reference, settings, options.seeds_or(16, 8), options.threads));
+            }
             report(place, variant, points, own, options.tiny, outcome);
         }
     }

@@ -7,10 +7,10 @@
 namespace parallux::error_bars {
 
 Outcome target(const Options& options) {
-    constexpr double wanted = 0.01;
+    const double wanted = options.tiny ? 0.02 : 0.01;
     Outcome outcome;
     outcome.json = Json::array();
-    for (const std::string& name : options.scenes.empty() ? interval_places() : options.scenes) {
+    for (const std::string& name : options.chosen(interval_places(options.tiny))) {
         const Place place = make_place(name, options.tiny);
         SolveSettings settings = options.settings;
         settings.target_error = wanted;
