@@ -134,10 +134,10 @@ double visible_form_factor(const glm::dvec3& point, const glm::dvec3& normal, co
     far = std::sqrt(far);
     scratch.seen.assign(1, cone);
     for (const Polygon& blocker : blockers) {
-        // What hides lies between the point and the plane of `to`, and on the way.
+        // What hides lies on the point's side of the plane of `to`, and on the way.
         if (beside(blocker, point, cone, -1))
             continue;
-        const Polygon between = in_front_of(in_front_of(blocker, to[0], facing), point, -facing);
+        const Polygon between = in_front_of(blocker, to[0], facing);
         if (between.size() < 3)
             continue;
         const double turn = glm::dot(area_vector(between), between[0] - point);

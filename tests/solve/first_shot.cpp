@@ -55,8 +55,9 @@ Scene shaded_lamp() {
 
 TEST_CASE(
     "exact first shots bring what rays bring, past a cube and past a ball of many triangles") {
-    // Every patch below the Šidák bound. Fails when what hides is left out, when half of a cell's
-    // points are, and when shadow rays stop at the source's own surface (planted).
+    // Every patch below the Šidák bound. Fails when what hides is left out, when shadow rays stop at
+    // the source's own surface, and when points behind the cell's plane are drawn (planted, each
+    // seen).
     for (bool many : {false, true}) {
         Scene scene = dim_room();
         if (many)
