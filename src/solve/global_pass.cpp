@@ -47,8 +47,10 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     state.watts_per_quantum = carried_quantum(run, state.emission);
     state.dither = static_cast<std::uint32_t>(mix64(run.settings.seed));
     LineSweep sweep(run, state, run.settings.direction, emission_quanta(plan, state));
+    // Light that goes from bundle to bundle must meet a direction again as often as if all were
+    // independent: of a lattice that has each but once, a run of D bundles is off by some 1/D.
     const BundleSettings lattice{run.settings.seed, plan.passing(), run.settings.directions,
-                                 plan.spacing};
+                                 plan.spacing, true};
     PassResult result;
     std::vector<double> planned;
     for (std::int64_t quanta : direct.unshot)
