@@ -32,6 +32,10 @@ struct BundleSettings {
     std::uint64_t count = 1;  ///< D, of the whole run: the lattice has so many points
     DirectionSet directions = DirectionSet::lattice;
     double spacing = 1;  ///< δ, metres
+    /// The lattice has half as many points; half of these come twice in the first half of the
+    /// bundles, the others in the second, so that directions within a half are as good as
+    /// independent.
+    bool twice = false;
 };
 
 /// Bundle `index` of a run: a pure function of its arguments. Directions are a spherical Fibonacci

@@ -49,8 +49,7 @@ struct SolveSettings {
     /// Share of the bundles that gather once the others have passed, 0 … 1; negative: chosen.
     double gather_share = -1;
     /// Independent runs, of as many bundles each, that the result is the mean of and whose spread
-    /// tells its error; 0: eight with 640 / (1 - mean reflectance) bundles or more, else 1, which
-    /// leaves the error unknown.
+    /// tells its error; 0: eight with 800 bundles or more, else 1, which leaves the error unknown.
     std::uint32_t groups = 0;
     /// Runs until the relative RMS is below this with 95 % confidence, in place of a number of
     /// bundles; 0: off. Of bundles alone, and not of one group. The first round has `groups` groups

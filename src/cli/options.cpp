@@ -186,8 +186,8 @@ void add_method(CLI::App& app, SolveSettings& s) {
            [&](auto& v) { s.gather_share = parse_real("--gather-share", v, 0, 1); });
     option(
         "--groups", "R",
-        "Independent parts of the bundles, whose spread tells the error; 1: unknown [8 with 640 "
-        "/ (1 - mean reflectance) bundles or more]",
+        "Independent parts of the bundles, whose spread tells the error; 1: unknown [8 with 800 "
+        "bundles or more]",
         [&](auto& v) { s.groups = static_cast<std::uint32_t>(parse_count("--groups", v, 1, 64)); });
     option("--directions", "D", "lattice or random [lattice]", [&](auto& v) {
         s.directions = parse_choice<DirectionSet>(

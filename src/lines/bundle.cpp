@@ -29,6 +29,22 @@ struct Rotation {
     glm::dvec3 operator*(const glm::dvec3& v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
+// A point of the lattice and how many there are.
+struct LatticePoint {
+    std::uint64_t point, count;
+};
+
+LatticePoint lattice_point(const BundleSettings& settings, std::uint64_t index) {
+    if (!settings.twice)
+        return {shuffled(index, settings.count, settings.seed), settings.count};
+    const std::uint64_t first = settings.count / 2, second = settings.count - first;
+    const std::uint64_t firsts = (first + 1) / 2, count = firsts + (second + 1) / 2;
+    const std::uint64_t place =
+        index < first ? shuffled(index, first, mix64(settings.seed + 1)) / 2
+                      : firsts + shuffled(index - first, second, mix64(settings.seed + 2)) / 2;
+    return {shuffled(place, count, settings.seed), count};
+}
+
 }  // namespace
 
 glm::dvec2 uniform_disk(Random& random, double& square) {
@@ -95,9 +111,9 @@ Bundle make_bundle(const BundleSettings& settings, std::uint64_t index) {
         bundle.direction = uniform_direction(random);
     } else {
         Random common(settings.seed, stream::rotation);
-        std::uint64_t point = shuffled(index, settings.count, settings.seed);
+        const LatticePoint own = lattice_point(settings, index);
         bundle.direction =
-            glm::normalize(Rotation(common) * fibonacci_direction(point, settings.count));
+            glm::normalize(Rotation(common) * fibonacci_direction(own.point, own.count));
     }
     glm::dvec3 x, y;
     frame_across(bundle.direction, x, y);

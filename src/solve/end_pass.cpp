@@ -48,33 +48,32 @@ void end_pass(const Run& run, const DirectLight& direct, TransferState& state, P
     const Patches& patches = run.patches;
     const std::uint32_t bands = patches.bands;
     pass.balance = balance_of(run, direct, state);
+    Leftover::Spread spread;
+    if (pass.leftover)
+        spread = pass.leftover->spread(state, run.banks, pass.done);
+    else
+        spread.factor.assign(bands, pass.received);
     state.sent = std::vector<std::int64_t>();
     state.carried = AlignedArray<std::int32_t>();
-    std::vector<double> factors(bands, pass.received);
-    if (pass.leftover)
-        factors = pass.leftover->factors(state, run.banks, pass.done);
     pass.irradiance.resize(patches.reflectance.size());
     pass.crossings.resize(patches.count());
-    auto finish = [&](std::size_t first, std::size_t last, const double* factor) {
-        for (std::size_t patch = first; patch < last; ++patch) {
-            const double unit = state.watts_per_quantum / patches.area[patch];
-            for (std::uint32_t band = 0; band < bands; ++band) {
-                const double received = static_cast<double>(run.banks.received(patch, band));
-                const double ambient = pass.ambient.empty() ? 0 : pass.ambient[band];
-                pass.irradiance[patch * bands + band] =
-                    static_cast<float>(factor[band] * received * unit + ambient);
-            }
-            pass.crossings[patch] = static_cast<std::uint64_t>(run.banks.exits(patch));
+    auto finish = [&](std::size_t patch) {
+        const std::uint32_t region = pass.leftover ? pass.leftover->region(patch) : 0;
+        for (std::uint32_t band = 0; band < bands; ++band) {
+            double received = static_cast<double>(run.banks.received(patch, band));
+            if (pass.leftover && received > 0)
+                received += spread.even[region * bands + band] * patches.area[patch];
+            const double ambient = pass.ambient.empty() ? 0 : pass.ambient[band];
+            pass.irradiance[patch * bands + band] = static_cast<float>(
+                spread.factor[band] * received * state.watts_per_quantum / patches.area[patch] +
+                ambient);
         }
+        pass.crossings[patch] = static_cast<std::uint64_t>(run.banks.exits(patch));
     };
     parallel_for(run.plan.threads, patches.count(), 1 << 14,
                  [&](std::size_t begin, std::size_t end, unsigned) {
-                     if (!pass.leftover)
-                         return finish(begin, end, factors.data());
-                     pass.leftover->for_groups(
-                         begin, end, [&](std::size_t first, std::size_t last, std::uint32_t group) {
-                             finish(first, last, &factors[group * bands]);
-                         });
+                     for (std::size_t patch = begin; patch < end; ++patch)
+                         finish(patch);
                  });
 }
 

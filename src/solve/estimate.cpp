@@ -7,6 +7,7 @@
 
 #include "parallel.h"
 #include "random.h"
+#include "solve/plan_lines.h"
 
 namespace parallux {
 
@@ -187,6 +188,9 @@ Solution Estimate::solution(const Plan& plan) {
     if (solution.leaks > 0)
         solution.warnings.push_back(std::to_string(solution.leaks) +
                                     " lines met a closed scene an odd number of times");
+    if (plan.too_few)
+        solution.warnings.push_back("the error is unknown: that takes " +
+                                    std::to_string(bundles_for_error) + " bundles or more");
     solution.groups = groups_;
     solution.line_spacing = plan.spacing;
     solution.batch = plan.batch;

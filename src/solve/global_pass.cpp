@@ -47,15 +47,16 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     state.watts_per_quantum = carried_quantum(run, state.emission);
     state.dither = static_cast<std::uint32_t>(mix64(run.settings.seed));
     LineSweep sweep(run, state, run.settings.direction, emission_quanta(plan, state));
+    // Light that goes from bundle to bundle must meet a direction again as often as if all were
+    // independent: of a lattice that has each but once, a run of D bundles is off by some 1/D.
     const BundleSettings lattice{run.settings.seed, plan.passing(), run.settings.directions,
-                                 plan.spacing};
+                                 plan.spacing, true};
     PassResult result;
     std::vector<double> planned;
     for (std::int64_t quanta : direct.unshot)
         planned.push_back(static_cast<double>(quanta) * plan.watts_per_quantum);
     result.leftover.emplace(run.scene, run.patches, planned, plan.threads);
     const std::uint64_t emitting = plan.passing() - plan.closing;
-    const std::uint64_t halfway = emitting + plan.closing / 2;
     // What the next batch's exits carry is set by the merge before it, in one walk over the
     // patches: its size goes by the light that the merge before that has seen.
     std::uint32_t batch = next_batch(plan, 0, 0, 1);
@@ -66,11 +67,10 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     };
     merge_for(batch);
     while (result.bundles < plan.passing()) {
-        // Emission ends before the lines do; what still goes round tells what is left over.
-        if (plan.closing > 1 && (result.bundles == emitting || result.bundles == halfway))
-            result.leftover->note(run.banks);
+        // Emission ends before the lines do.
         if (result.bundles == emitting)
             sweep.darken_sky();
+        sweep.count(result.bundles < Leftover::enough ? &*result.leftover : nullptr);
         if (bundles) {
             sweep.bundles(lattice, result.bundles, batch);
         } else {
@@ -93,8 +93,6 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     result.done =
         std::min(1.0, static_cast<double>(result.bundles) / static_cast<double>(emitting));
     result.whole = result.bundles == plan.passing();
-    if (result.whole && plan.closing > 1)
-        result.leftover->note(run.banks);
     return result;
 }
 

@@ -8,116 +8,143 @@
 
 namespace parallux {
 
-namespace {
-constexpr double faint = 100;
-}
-
 Leftover::Leftover(const Scene& scene, const Patches& patches, std::vector<double> planned,
                    unsigned threads)
-    : scene_(scene),
-      patches_(patches),
-      count_(static_cast<std::uint32_t>(2 * scene.objects.size())),
+    : patches_(patches),
+      regions_(make_regions(scene, patches)),
       planned_(std::move(planned)),
-      threads_(threads) {
-    // Patches are numbered surface by surface; later surfaces may share those of an earlier one.
-    std::uint32_t next = 0;
-    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s)
-        if (patches.grids[s].front == next) {
-            surfaces_.push_back(s);
-            next +=
-                patches.grids[s].nu * patches.grids[s].nv * (patches.grids[s].back == none ? 1 : 2);
-        }
+      threads_(threads),
+      counts_(threads) {
 }
 
-void Leftover::for_groups(
-    std::size_t begin, std::size_t end,
-    const std::function<void(std::size_t, std::size_t, std::uint32_t)>& visit) const {
-    auto after = std::upper_bound(
-        surfaces_.begin(), surfaces_.end(), begin,
-        [&](std::size_t patch, std::uint32_t s) { return patch < patches_.grids[s].front; });
-    for (auto own = after - 1; begin < end; ++own) {
-        const SurfaceGrid& grid = patches_.grids[*own];
-        const std::uint32_t group = 2 * scene_.surfaces[*own].object;
-        const std::size_t middle = grid.front + std::size_t(grid.nu) * grid.nv;
-        if (begin < middle)
-            visit(begin, std::min(middle, end), group);
-        begin = std::max(begin, middle);
-        if (grid.back == none || begin >= end)
-            continue;
-        const std::size_t last = std::min(middle + std::size_t(grid.nu) * grid.nv, end);
-        if (begin < last)
-            visit(begin, last, group + 1);
-        begin = std::max(begin, last);
+void Leftover::count(const TilePairs& pairs, unsigned worker) {
+    const std::size_t row = regions_.count + 1;
+    std::vector<std::uint64_t>& counts = counts_[worker];
+    counts.resize(regions_.count * row, 0);
+    for (std::size_t k = 0; k < pairs.from.count; ++k) {
+        const std::size_t a = regions_.of[pairs.from.ids[k]], b = regions_.of[pairs.to.ids[k]];
+        ++counts[a * row + b];
+        ++counts[b * row + a];
     }
+    for (const PatchList* out : {&pairs.first, &pairs.last, &pairs.into_backs, &pairs.from_backs})
+        for (std::size_t k = 0; k < out->count; ++k)
+            ++counts[regions_.of[out->ids[k]] * row + regions_.count];
 }
 
-Leftover::Sums Leftover::sums(
-    const std::function<std::int64_t(std::size_t, std::uint32_t)>& value) const {
-    std::vector<Sums> by_worker(threads_, Sums(count_ * patches_.bands, 0));
-    parallel_for(threads_, patches_.count(), 1 << 14,
-                 [&](std::size_t begin, std::size_t end, unsigned worker) {
-                     for_groups(begin, end,
-                                [&](std::size_t first, std::size_t last, std::uint32_t group) {
-                                    std::int64_t* sum = &by_worker[worker][group * patches_.bands];
-                                    for (std::size_t patch = first; patch < last; ++patch)
-                                        for (std::uint32_t band = 0; band < patches_.bands; ++band)
-                                            sum[band] += value(patch, band);
-                                });
-                 });
-    for (std::size_t worker = 1; worker < by_worker.size(); ++worker)
-        for (std::size_t k = 0; k < by_worker[0].size(); ++k)
-            by_worker[0][k] += by_worker[worker][k];
-    return by_worker[0];
+// The share of what leaves a region that comes to each. Few lines do not leave the regions just as
+// their areas ask: counts are scaled alike by row and column until they do (R. Sinkhorn, A
+// Relationship between Arbitrary Positive Matrices and Doubly Stochastic Matrices, 1964), so that
+// light that has bounced for ever is even.
+std::vector<double> Leftover::ways() const {
+    const std::size_t n = regions_.count, row = n + 1;
+    std::vector<double> ways(n * row, 0), area(n, 0), scale(row, 1), all(n);
+    for (const std::vector<std::uint64_t>& counts : counts_)
+        for (std::size_t k = 0; k < counts.size(); ++k)
+            ways[k] += static_cast<double>(counts[k]);
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch)
+        area[regions_.of[patch]] += patches_.area[patch];
+    constexpr int rounds = 30;
+    for (int round = 0; round <= rounds; ++round) {
+        for (std::size_t from = 0; from < n; ++from) {
+            all[from] = 0;
+            for (std::size_t to = 0; to <= n; ++to)
+                all[from] += ways[from * row + to] * scale[to];
+        }
+        for (std::size_t from = 0; round < rounds && from < n; ++from)
+            if (all[from] > 0)
+                scale[from] = std::sqrt(scale[from] * area[from] / all[from]);
+    }
+    for (std::size_t from = 0; from < n; ++from)
+        for (std::size_t to = 0; all[from] > 0 && to <= n; ++to)
+            ways[from * row + to] *= scale[to] / all[from];
+    return ways;
 }
 
-void Leftover::note(const Banks& banks) {
-    notes_.push_back(
-        sums([&](std::size_t patch, std::uint32_t band) { return banks.received(patch, band); }));
-}
+// Of every region and band: quanta unshot, the area that light has reached, and what of it
+// reflects.
+struct Leftover::Sums {
+    std::vector<std::int64_t> unshot;
+    std::vector<double> area, reflecting;
+};
 
-std::vector<double> Leftover::factors(const TransferState& state, const Banks& banks,
-                                      double done) const {
+Leftover::Sums Leftover::sums(const TransferState& state, const Banks& banks) const {
     const std::uint32_t bands = state.bands;
-    std::vector<double> factors(count_ * bands, 1);
-    const Sums absorbed = sums([&](std::size_t patch, std::uint32_t band) {
-        const std::int64_t received = banks.received(patch, band);
-        return received -
-               std::llrint(static_cast<double>(patches_.reflectance[patch * bands + band]) *
-                           static_cast<double>(received));
-    });
-    for (std::uint32_t band = 0; band < bands; ++band) {
-        double sky = static_cast<double>(state.sky[band]);
-        double sent = static_cast<double>(state.emitted[band]) + sky;
-        double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
-        double wanted = planned_[band] / state.watts_per_quantum + sky / done;
-        if (!(sent > 0 && finished > 0 && wanted > 0))
-            continue;
-        // The share of each group's received energy that is still to come: after R1 and R2 in the
-        // halves of the closing bundles, R2 (r + r² + …) with r = R2 / R1.
-        std::vector<double> to_come(count_, 0);
-        double would_finish = 0;
-        for (std::uint32_t group = 0; notes_.size() == 3 && group < count_; ++group) {
-            std::size_t k = group * bands + band;
-            const double first = static_cast<double>(notes_[1][k] - notes_[0][k]);
-            const double second = static_cast<double>(notes_[2][k] - notes_[1][k]);
-            // Of too few quanta the fall tells nothing.
-            if (!(first > faint && second > faint))
+    Sums sums;
+    sums.unshot.resize(regions_.count * bands, 0);
+    sums.area.resize(regions_.count * bands, 0);
+    sums.reflecting.resize(regions_.count * bands, 0);
+    for (std::size_t patch = 0; patch < patches_.count(); ++patch)
+        for (std::uint32_t band = 0; band < bands; ++band) {
+            const std::size_t k = patch * bands + band, r = regions_.of[patch] * bands + band;
+            const std::int64_t received = banks.received(patch, band);
+            if (received <= 0)
                 continue;
-            double r = std::min(second / first, 0.9999);
-            to_come[group] = second * r / (1 - r) / static_cast<double>(notes_[2][k]);
-            // What escapes goes with what is absorbed.
-            would_finish += to_come[group] * static_cast<double>(absorbed[k]) * finished /
-                            static_cast<double>(std::max<std::int64_t>(1, state.absorbed[band]));
+            const double reflectance = patches_.reflectance[k];
+            sums.unshot[r] +=
+                std::llrint(reflectance * static_cast<double>(received)) - state.sent[k];
+            sums.area[r] += patches_.area[patch];
+            sums.reflecting[r] += patches_.area[patch] * reflectance;
         }
-        double unshot = sent - finished;
-        for (std::uint32_t group = 0; group < count_; ++group) {
-            double share =
-                would_finish > 0 ? to_come[group] * unshot / would_finish : unshot / finished;
-            // Emission that more or fewer lines carried than expected is corrected alike for all.
-            factors[group * bands + band] = (1 + share) * wanted / sent;
+    return sums;
+}
+
+// Solves x_to = Σ ways(from, to) (u_from + ρ_from x_from): quanta that come to each region until
+// all is absorbed. Columns of 1 - ρ ways are ruled by their diagonal, so that no row need be
+// exchanged.
+std::vector<double> Leftover::follow(const std::vector<double>& ways, const Sums& sums,
+                                     std::uint32_t band) const {
+    const std::size_t n = regions_.count, bands = patches_.bands;
+    std::vector<double> matrix(n * n), x(n, 0);
+    for (std::size_t from = 0; from < n; ++from) {
+        const std::size_t r = from * bands + band;
+        const double reflectance = sums.area[r] > 0 ? sums.reflecting[r] / sums.area[r] : 0;
+        for (std::size_t to = 0; to < n; ++to) {
+            const double way = ways[from * (n + 1) + to];
+            matrix[to * n + from] = (from == to ? 1 : 0) - reflectance * way;
+            x[to] += way * static_cast<double>(sums.unshot[r]);
         }
     }
-    return factors;
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t row = k + 1; row < n; ++row) {
+            const double times = matrix[row * n + k] / matrix[k * n + k];
+            if (times == 0)
+                continue;
+            for (std::size_t column = k; column < n; ++column)
+                matrix[row * n + column] -= times * matrix[k * n + column];
+            x[row] -= times * x[k];
+        }
+    for (std::size_t k = n; k-- > 0;) {
+        for (std::size_t column = k + 1; column < n; ++column)
+            x[k] -= matrix[k * n + column] * x[column];
+        x[k] /= matrix[k * n + k];
+    }
+    return x;
+}
+
+Leftover::Spread Leftover::spread(const TransferState& state, const Banks& banks,
+                                  double done) const {
+    const std::uint32_t bands = state.bands;
+    Spread spread;
+    spread.factor.assign(bands, 1);
+    spread.even.assign(regions_.count * bands, 0);
+    const Sums sums = this->sums(state, banks);
+    const std::vector<double> ways = this->ways();
+    for (std::uint32_t band = 0; band < bands; ++band) {
+        const double sky = static_cast<double>(state.sky[band]);
+        const double sent = static_cast<double>(state.emitted[band]) + sky;
+        const double wanted = planned_[band] / state.watts_per_quantum + sky / done;
+        if (!(sent > 0 && wanted > 0))
+            continue;
+        // Emission that more or fewer lines carried than expected is corrected alike for all.
+        spread.factor[band] = wanted / sent;
+        const std::vector<double> to_come = follow(ways, sums, band);
+        for (std::size_t region = 0; region < regions_.count; ++region) {
+            const std::size_t r = region * bands + band;
+            if (sums.area[r] > 0)
+                spread.even[r] = to_come[region] / sums.area[r];
+        }
+    }
+    return spread;
 }
 
 }  // namespace parallux

@@ -51,6 +51,11 @@ void LineSweep::lines(std::uint64_t first, std::uint64_t count) {
                      trace_lines(*run_.rays, run_.scene, run_.patches, plan.sphere,
                                  run_.settings.seed, first + begin, end - begin, buffers.lists,
                                  lit ? &buffers.directions : nullptr);
+                     if (ways_) {
+                         buffers.pairs.clear();
+                         append_pairs(buffers.lists, buffers.pairs);
+                         ways_->count(buffers.pairs, worker);
+                     }
                      buffers.sky.clear();
                      for (std::size_t k = 0; lit && k < buffers.directions.size(); ++k)
                          buffers.sky.push_back(sky_quanta(run_.scene, sky_, buffers.directions[k]));
@@ -122,6 +127,8 @@ void LineSweep::each_tile(std::size_t tiles, Follow&& follow) {
 void LineSweep::follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
     Buffers& buffers = buffers_[worker];
     projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
+    if (ways_)
+        ways_->count(buffers.pairs, worker);
     SkyQuanta sky;
     if (sky_ > 0)
         sky = sky_quanta(run_.scene, sky_, projection.bundle.direction);

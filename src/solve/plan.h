@@ -17,6 +17,7 @@ struct Plan {
     std::uint64_t first_shot_rays = 0;      ///< of a group
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have
     std::uint32_t groups = 1;        ///< independent runs that the result is the mean of
+    bool too_few = false;            ///< bundles, to state an error
     bool shoot_each = true;          ///< the first shots of all groups differ
     std::uint64_t bundles = 0;       ///< D of a group; for independent lines, of lines_a_unit each
     std::uint64_t lines = 0;         ///< independent lines in all, or particles

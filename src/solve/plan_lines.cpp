@@ -44,22 +44,16 @@ std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& set
     return static_cast<std::uint64_t>(all - std::min(std::max(0.3 * all, bounces), 0.5 * all));
 }
 
+constexpr std::uint32_t usual_groups = 8;
+
 // Groups whose spread tells the error of their mean: eight, if each has bundles enough to be
 // without a bias of its own, which no spread would show.
-std::uint32_t groups_of(const Patches& patches, const SolveSettings& settings,
-                        std::uint64_t bundles) {
-    constexpr std::uint32_t usual = 8;
+std::uint32_t groups_of(const SolveSettings& settings, std::uint64_t bundles) {
     if (settings.method != Method::bundles)
         return 1;
     if (settings.groups > 0)
         return static_cast<std::uint32_t>(std::min<std::uint64_t>(settings.groups, bundles));
-    const double enough = usual * 80 / (1 - mean_reflectance(patches));
-    return static_cast<double>(bundles) >= enough && settings.gather_share != 0 ? usual : 1;
-}
-
-// The first round of a run to a stated error: enough for groups without bias.
-std::uint64_t trial_bundles(const Patches& patches) {
-    return static_cast<std::uint64_t>(std::ceil(640 / (1 - mean_reflectance(patches))));
+    return bundles >= bundles_for_error && settings.gather_share != 0 ? usual_groups : 1;
 }
 
 bool follows_lines(const SolveSettings& settings) {
@@ -115,7 +109,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = static_cast<std::uint64_t>(
             std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
     else
-        plan.bundles = settings.target_error > 0 ? trial_bundles(patches) : 4096;
+        plan.bundles = settings.target_error > 0 ? 2 * bundles_for_error : 4096;
     if (follows_lines(settings)) {
         plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
         plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
@@ -123,7 +117,9 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.bundles = (plan.lines - 1) / plan.lines_a_unit + 1;
         plan.cell = disc / static_cast<double>(plan.lines_a_unit);
     }
-    plan.groups = groups_of(patches, settings, plan.bundles);
+    plan.groups = groups_of(settings, plan.bundles);
+    plan.too_few = settings.method == Method::bundles && settings.groups == 0 &&
+                   plan.bundles < bundles_for_error;
     plan.bundles = (plan.bundles - 1) / plan.groups + 1;
     plan.gathering = gathering_bundles(patches, settings, plan.bundles);
     if (in_batches(settings))
