@@ -54,7 +54,8 @@ EmbreePackets::EmbreePackets(const Case& of, bool whole) : EmbreeEngine(of, Part
     const LineSphere sphere = line_sphere(of.scene);
     const std::uint64_t count = whole ? of.bundles : std::min(of.bundles, most_bundles);
     for (std::uint64_t k = 0; k < count; ++k) {
-        bundles_.push_back(make_bundle({1, of.bundles, DirectionSet::lattice, of.spacing}, k));
+        bundles_.push_back(
+            make_bundle({1, of.bundles, DirectionSet::lattice, of.spacing, true}, k));
         rectangles_.push_back(rectangle_of(of.scene, sphere.centre, bundles_.back()));
     }
     choose({4, 16}, [&] { return trace(1, 400'000); });
