@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "efficiency/reference.h"
+#include "efficiency/rounds.h"
+
+namespace parallux::efficiency {
+
+/// Whether the two runs of the reference agree and every method's mean, at its longest, is where
+/// the reference is; says what it found. Needs three seeds at least.
+bool methods_agree(const Reference& reference, const std::vector<Row>& rows);
+
+}  // namespace parallux::efficiency

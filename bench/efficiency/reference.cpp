@@ -1,0 +1,97 @@
+#include "efficiency/reference.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "efficiency/quality.h"
+#include "efficiency/reference_file.h"
+#include "parallux/solve.h"
+
+namespace parallux::efficiency {
+
+namespace {
+
+struct Planned {
+    const char* name;
+    FirstShot first_shot;
+    std::uint64_t seed;
+};
+
+Solution long_run(const Case& of, const ReferenceSettings& settings, const Planned& planned,
+                  LongRun& run) {
+    SolveSettings own;
+    own.first_shot = planned.first_shot;
+    own.bundles = settings.bundles;
+    own.groups = 8;
+    own.seed = planned.seed;
+    own.threads = settings.threads;
+    Solution solution = solve(of.scene, of.patches, own);
+    const Seconds& seconds = solution.seconds;
+    run = {planned.name,
+           planned.seed,
+           settings.bundles,
+           solution.relative_rms,
+           solution.relative_rms_bound,
+           seconds.first_shot + seconds.global + seconds.gather};
+    return solution;
+}
+
+Reference compute(const Case& of, const ReferenceSettings& settings) {
+    const bool exact = exact_is_affordable(of);
+    Reference result;
+    result.runs.resize(2);
+    const Solution a = long_run(
+        of, settings,
+        exact ? Planned{"exact", FirstShot::exact, 7001} : Planned{"none", FirstShot::off, 7001},
+        result.runs[0]);
+    const Solution b = long_run(of, settings, {"none", FirstShot::off, 7002}, result.runs[1]);
+    auto squared = [](double x) { return x * x; };
+    const double variance_a = squared(result.runs[0].relative_rms);
+    const double variance_b = squared(result.runs[1].relative_rms);
+    const double share_a = variance_b / (variance_a + variance_b);
+    for (std::size_t k = 0; k < a.radiosity.size(); ++k)
+        result.radiosity.push_back(share_a * a.radiosity[k] + (1 - share_a) * b.radiosity[k]);
+    result.scale = mean_square(of, [&](std::size_t k) { return result.radiosity[k]; });
+    result.quadratic_error = result.scale * variance_a * variance_b / (variance_a + variance_b);
+    result.difference = std::sqrt(quadratic_error(of, a.radiosity, b.radiosity) / result.scale);
+    result.stated = std::sqrt(variance_a + variance_b);
+    result.bound = std::hypot(result.runs[0].relative_rms_bound, result.runs[1].relative_rms_bound);
+    return result;
+}
+
+}  // namespace
+
+bool exact_is_affordable(const Case& of) {
+    return static_cast<double>(of.emitters) * static_cast<double>(of.patches.count()) <= 1e6;
+}
+
+Reference make_reference(const Case& of, const ReferenceSettings& settings) {
+    Reference reference;
+    if (read_reference(of, settings, reference))
+        return reference;
+    std::printf("\n%s: making its reference, two runs of %llu bundles\n", of.name.c_str(),
+                static_cast<unsigned long long>(settings.bundles));
+    std::fflush(stdout);
+    reference = compute(of, settings);
+    write_reference(of, settings, reference);
+    return reference;
+}
+
+void print_reference(const Case& of, const Reference& reference) {
+    std::printf("\n%s: %zu patches, %u band%s, %llu emitting surfaces\n", of.name.c_str(),
+                of.patches.count(), of.patches.bands, of.patches.bands > 1 ? "s" : "",
+                static_cast<unsigned long long>(of.emitters));
+    for (const LongRun& run : reference.runs)
+        std::printf("reference: %llu bundles, first shot %s, %.0f s: states %.4f %% (below %.4f)\n",
+                    static_cast<unsigned long long>(run.bundles), run.first_shot.c_str(),
+                    run.seconds, 100 * run.relative_rms, 100 * run.relative_rms_bound);
+    std::printf(
+        "reference: they differ by %.4f %%, their statements let expect %.4f, below %.4f: %s\n",
+        100 * reference.difference, 100 * reference.stated, 100 * reference.bound,
+        reference.agrees() ? "compatible" : "NOT COMPATIBLE");
+    std::printf("reference: own error %.4f %%%s\n",
+                100 * std::sqrt(reference.quadratic_error / reference.scale),
+                reference.cached ? "; kept from an earlier run" : "");
+}
+
+}  // namespace parallux::efficiency
