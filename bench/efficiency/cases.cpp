@@ -127,7 +127,7 @@ Case make_case(const std::string& name) {
     if (name == "cornell-1000")
         return finish(name, closed_cornell_box(), 1000);
     if (name == tiny_case)
-        return finish(name, closed_cornell_box(), 150);
+        return finish(name, load_scene(scenes / "paper_scene2_114.json"), 0);
     const auto file = shared_files().find(name);
     return finish(name, load_scene(file == shared_files().end() ? name : file->second.string()), 0);
 }

@@ -23,7 +23,7 @@ struct Case {
 const std::vector<std::string>& case_names();
 
 /// The case of --tiny.
-inline const char* const tiny_case = "cornell-150";
+inline const char* const tiny_case = "paper-114";
 
 /// Whether a named case can be built here: some are files that not every machine has.
 bool available(const std::string& name);

@@ -34,8 +34,10 @@ struct Reference {
     double stated = 0;           ///< the difference that their standard errors make one expect
     double bound = 0;            ///< and what it is below by their bounds of 95 %
     std::vector<LongRun> runs;
+    double refused = 0;  ///< difference of an exact first shot that did not agree; 0: none was
     bool cached = false;
 
+    /// Whether the two runs are as close as they claim to be.
     bool agrees() const { return difference <= bound; }
 };
 
@@ -43,7 +45,8 @@ struct Reference {
 bool exact_is_affordable(const Case& of);
 
 /// Two runs by bundles under seeds of their own: one after an exact first shot, where that is
-/// affordable, and one without any. The reference is their mean, each weighted by the inverse of
+/// affordable, and one without any; two without any where these do not agree, because no first shot
+/// is none that could be wrong. The reference is their mean, each weighted by the inverse of
 /// its stated variance. Read from the folder when a run of the same case and length was left there;
 /// else made, and left there. Throws Fault::output when it cannot be.
 Reference make_reference(const Case& of, const ReferenceSettings& settings);

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Raised when references are made in another way, so that no older one is taken for one of these.
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 std::string key_of(const Case& of, const ReferenceSettings& settings) {
     char text[17];
@@ -37,6 +37,7 @@ void fill(const Json& json, Reference& reference) {
     json.at("difference").get_to(reference.difference);
     json.at("stated").get_to(reference.stated);
     json.at("bound").get_to(reference.bound);
+    json.at("refused").get_to(reference.refused);
     for (const Json& run : json.at("runs"))
         reference.runs.push_back({run.at("first_shot"), run.at("seed"), run.at("bundles"),
                                   run.at("relative_rms"), run.at("relative_rms_bound"),

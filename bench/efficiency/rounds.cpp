@@ -22,6 +22,8 @@ double processor_seconds() {
 std::uint64_t shortest_length(const Case& of, const Contender& contender,
                               const RoundSettings& settings) {
     std::uint64_t length = contender.least_length();
+    if (settings.shortest <= 0)
+        return 8 * length;
     const double least = timed_run(of, contender, length, 1).seconds(settings.clock);
     double more = 0;
     while (more < 0.3 * settings.shortest && length < std::uint64_t(1) << 40) {

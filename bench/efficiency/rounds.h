@@ -15,9 +15,11 @@ enum class Clock {
 };
 
 struct RoundSettings {
-    int seeds = 5;          ///< runs of every method and length
-    int lengths = 3;        ///< each four times the one before
-    double shortest = 0.1;  ///< seconds that the shortest takes beyond a run of next to nothing
+    int seeds = 5;    ///< runs of every method and length
+    int lengths = 3;  ///< each four times the one before
+    /// Seconds that the shortest length takes beyond a run of next to nothing; 0: few and always
+    /// the same lengths, whatever they take.
+    double shortest = 0.1;
     Clock clock = Clock::wall;
 };
 
@@ -58,7 +60,8 @@ Row run_row(const Case& of, const Reference& reference, const Contender& contend
             std::uint64_t length, const RoundSettings& settings);
 
 /// Runs all contenders at all lengths in turn, once a seed, so that a change of the machine's speed
-/// meets all alike. Lengths are powers of two and found by trial.
+/// meets all alike. Lengths are powers of two, found by
+/// trial.
 std::vector<Row> run_rounds(const Case& of, const Reference& reference,
                             const std::vector<Contender>& contenders,
                             const RoundSettings& settings);
