@@ -1,6 +1,5 @@
 #include "efficiency/check.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -9,15 +8,6 @@
 namespace parallux::efficiency {
 
 namespace {
-
-// What mean_error / mean_expected of R runs stays below with 99.9 % confidence. Were all patches to
-// err as one it would be Student's t² of R - 1 degrees of freedom, which is the worst case: patches
-// that err each for itself average out.
-double bound_of(std::size_t runs) {
-    constexpr double t[] = {636.6, 31.6, 12.92, 8.61, 6.87, 5.96, 5.41, 5.04, 4.78, 4.59};
-    const std::size_t freedom = std::min<std::size_t>(runs - 1, 10);
-    return t[freedom - 1] * t[freedom - 1];
-}
 
 // Methods are allowed so much systematic error, relative: the end of a run is an estimate, and
 // shots stop at a thousandth of the power.
@@ -39,9 +29,7 @@ bool methods_agree(const Reference& reference, const std::vector<Row>& rows) {
         if (&row != rows_of(rows, row.method).back())
             continue;
         const double found = std::sqrt(row.mean_error / reference.scale);
-        const double chance =
-            std::sqrt(bound_of(row.errors.size()) * row.mean_expected / reference.scale);
-        const double allowed = std::hypot(chance, allowed_bias);
+        const double allowed = std::sqrt(row.mean_bound / reference.scale) + allowed_bias;
         good &= says(found <= allowed, row.method.c_str(), found, allowed);
     }
     return good;

@@ -8,7 +8,7 @@
 namespace parallux::efficiency {
 
 /// Whether the two runs of the reference agree and every method's mean, at its longest, is where
-/// the reference is; says what it found. Needs three seeds at least.
+/// the reference is; says what it found.
 bool methods_agree(const Reference& reference, const std::vector<Row>& rows);
 
 }  // namespace parallux::efficiency

@@ -22,7 +22,7 @@ struct Options {
     unsigned threads = 1;
     RoundSettings rounds;
     ReferenceSettings references;
-    double longest_goal = 15;
+    double longest_goal = 4;
     std::string json, figures;
     bool processor_time = false, references_only = false, tiny = false;
 };
@@ -59,6 +59,11 @@ int run(const Options& options) {
     std::vector<Row> rows;
     std::vector<Goal> goals;
     bool good = true;
+    // What there is, should the run end before the last scene.
+    auto save = [&] {
+        if (!options.json.empty())
+            write_json(options.json, rows, goals, options.rounds.clock);
+    };
     for (const std::string& name : chosen_scenes(options)) {
         const Case of = make_case(name);
         const Reference reference = make_reference(of, options.references);
@@ -73,15 +78,14 @@ int run(const Options& options) {
             good &= methods_agree(reference, own);
         if (!options.figures.empty())
             write_curves(options.figures, own);
+        rows.insert(rows.end(), own.begin(), own.end());
+        save();
         if (options.rounds.lengths > 1 && !options.tiny) {
             const std::vector<Goal> found = find_goals(of, reference, all, own, options);
             print_goals(found);
             goals.insert(goals.end(), found.begin(), found.end());
         }
-        rows.insert(rows.end(), own.begin(), own.end());
-        // What there is, should a later scene end the run.
-        if (!options.json.empty())
-            write_json(options.json, rows, goals, options.rounds.clock);
+        save();
     }
     return good ? 0 : 1;
 }
@@ -102,7 +106,7 @@ int main(int argc, char** argv) {
     Options options;
     RoundSettings& rounds = options.rounds;
     options.references.folder =
-        std::filesystem::path(argv[0]).parent_path() / "efficiency-references";
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "efficiency-references";
     app.add_option("--scene", options.scenes,
                    "paper-12150, paper-12150-rho80, cornell-1000, cornell-10000, mgf-classroom, "
                    "cornell-nvpro, bitterli-modern-hall or a file [all]");

@@ -9,7 +9,7 @@ namespace parallux::efficiency {
 
 namespace {
 
-constexpr int most_tries = 5;
+constexpr int most_tries = 3;
 constexpr double near = 0.05;  // a goal is met where the error is so close to it
 
 double length_of(const Row& row) {

@@ -7,22 +7,28 @@
 
 namespace parallux::efficiency {
 
-/// Σ A_i x_i² / Σ A_i over the patches that do not emit, mean over bands; value(k) gives x of
-/// k = patch · bands + band. Linear.
-template <typename Value>
-double mean_square(const Case& of, const Value& value) {
+/// Σ A_i x_i y_i / Σ A_i over the patches that do not emit, mean over bands; x(k) and y(k) give the
+/// values of k = patch · bands + band. Linear.
+template <typename X, typename Y>
+double mean_product(const Case& of, const X& x, const Y& y) {
     const std::size_t bands = of.patches.bands;
     double sum = 0, weight = 0;
     for (std::size_t patch = 0; patch < of.weight.size(); ++patch) {
         if (of.weight[patch] == 0)
             continue;
-        double squares = 0;
+        double products = 0;
         for (std::size_t k = patch * bands; k < (patch + 1) * bands; ++k)
-            squares += value(k) * value(k);
-        sum += of.weight[patch] * squares;
+            products += x(k) * y(k);
+        sum += of.weight[patch] * products;
         weight += of.weight[patch] * static_cast<double>(bands);
     }
     return weight > 0 ? sum / weight : 0;
+}
+
+/// The same of x².
+template <typename X>
+double mean_square(const Case& of, const X& x) {
+    return mean_product(of, x, x);
 }
 
 /// mean_square of a - b.

@@ -99,9 +99,10 @@ void print_reference(const Case& of, const Reference& reference) {
                     static_cast<unsigned long long>(run.bundles), run.first_shot.c_str(),
                     run.seconds, 100 * run.relative_rms, 100 * run.relative_rms_bound);
     std::printf(
-        "reference: they differ by %.4f %%, their statements let expect %.4f, below %.4f: %s\n",
+        "reference: they differ by %.4f %%, their statements let expect %.4f, below %.4f: "
+        "%s; a systematic error of one below %.4f %% would not show\n",
         100 * reference.difference, 100 * reference.stated, 100 * reference.bound,
-        reference.agrees() ? "compatible" : "NOT COMPATIBLE");
+        reference.agrees() ? "compatible" : "NOT COMPATIBLE", 100 * reference.blind());
     if (reference.refused > 0)
         std::printf(
             "reference: a run after an exact first shot is NOT COMPATIBLE, it is %.4f %% "
@@ -110,6 +111,7 @@ void print_reference(const Case& of, const Reference& reference) {
     std::printf("reference: own error %.4f %%%s\n",
                 100 * std::sqrt(reference.quadratic_error / reference.scale),
                 reference.cached ? "; kept from an earlier run" : "");
+    std::fflush(stdout);
 }
 
 }  // namespace parallux::efficiency

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -39,6 +40,8 @@ struct Reference {
 
     /// Whether the two runs are as close as they claim to be.
     bool agrees() const { return difference <= bound; }
+    /// Relative RMS of a systematic error of one run that agrees() would overlook in the mean.
+    double blind() const { return std::sqrt(bound * bound - stated * stated); }
 };
 
 /// Whether exact first shots are tried at all: their cost grows with emitting surfaces × patches.

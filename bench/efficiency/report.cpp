@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "efficiency/gains.h"
+#include "efficiency/judge.h"
 #include "output/output_file.h"
 
 namespace parallux::efficiency {
@@ -37,7 +38,8 @@ void print_method(const std::vector<const Row*>& curve) {
                                    [](const Row& row) { return row.quadratic_error; })
                                    .slope);
     const Row& last = *curve.back();
-    std::printf(" %9.3f %7.2f\n", 100 * last.relative_rms, last.mean_error / last.mean_expected);
+    std::printf(" %9.3f %8.3f%s\n", 100 * last.relative_rms, 100 * bias_of(last),
+                is_off(last) ? " *" : "");
 }
 
 void warn_of_reference(const std::vector<Row>& rows) {
@@ -56,11 +58,12 @@ void print_rows(const std::vector<Row>& rows, int seeds, Clock clock) {
     std::printf("%s, %u thread%s, %d runs a row, %s time; best length, gains of all lengths\n",
                 rows.front().scene.c_str(), rows.back().threads, rows.back().threads > 1 ? "s" : "",
                 seeds, clock == Clock::wall ? "wall" : "processor");
-    std::printf("%-18s %9s %9s %8s %9s  %*s  %6s %9s %7s\n", "method", "length", "Mlines",
+    std::printf("%-18s %9s %9s %8s %9s  %*s  %6s %9s %8s\n", "method", "length", "Mlines",
                 "seconds", "rms %", static_cast<int>(9 * lengths - 1), "gains, shortest first",
-                "slope", "longest %", "mean/ex");
+                "slope", "longest %", "bias %");
     for (const std::string& method : methods_in(rows))
         print_method(rows_of(rows, method));
+    std::printf("bias: of the longest runs' mean, beyond chance; * with 99.9 %% confidence\n");
     warn_of_reference(rows);
     std::fflush(stdout);
 }
@@ -97,7 +100,8 @@ void write_json(const std::string& file, const std::vector<Row>& rows,
                                 {"processor_seconds", median(row.cpu)},
                                 {"mean_error", row.mean_error},
                                 {"mean_expected", row.mean_expected},
-                                {"bias", row.bias()},
+                                {"mean_bound", row.mean_bound},
+                                {"bias", bias_of(row)},
                                 {"reference_share", row.reference_share}});
     for (const Goal& goal : goals)
         json["goals"].push_back({{"scene", goal.scene},

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "efficiency/judge.h"
 #include "efficiency/quality.h"
 
 namespace parallux::efficiency {
@@ -48,28 +49,14 @@ void add_run(const Case& of, const Reference& reference, const Timed& run, Row& 
     row.wall.push_back(run.wall);
     row.cpu.push_back(run.cpu);
     row.errors.push_back(quadratic_error(of, run.solution.radiosity, reference.radiosity));
-    row.sum.resize(reference.radiosity.size());
-    for (std::size_t k = 0; k < row.sum.size(); ++k)
-        row.sum[k] += run.solution.radiosity[k];
+    row.runs.push_back(run.solution.radiosity);
     row.lines = static_cast<double>(run.solution.counts.lines);
     row.first_shot_rays = static_cast<double>(run.solution.first_shot_rays);
 }
 
-// With R runs x about the reference b, whose mean is m: mean |x - b|² = |m - b|² + mean |x - m|²,
-// and the latter is (R - 1) / R of the variance V of a run. Of |m - b|² chance explains V / R.
-void sum_up(const Case& of, const Reference& reference, Clock clock, Row& row) {
-    const auto runs = static_cast<double>(row.errors.size());
+void finish(const Case& of, const Reference& reference, Clock clock, Row& row) {
     row.seconds = median(clock == Clock::wall ? row.wall : row.cpu);
-    for (double error : row.errors)
-        row.quadratic_error += error / runs;
-    row.relative_rms = std::sqrt(row.quadratic_error / reference.scale);
-    std::vector<double> mean = row.sum;
-    for (double& value : mean)
-        value /= runs;
-    row.mean_error = quadratic_error(of, mean, reference.radiosity);
-    const double variance = (row.quadratic_error - row.mean_error) * runs / (runs - 1);
-    row.mean_expected = variance / runs + reference.quadratic_error;
-    row.reference_share = reference.quadratic_error / row.quadratic_error;
+    judge(of, reference, row);
 }
 
 }  // namespace
@@ -80,10 +67,6 @@ double median(std::vector<double> values) {
     const std::size_t half = values.size() / 2;
     std::sort(values.begin(), values.end());
     return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-double Row::bias() const {
-    return std::sqrt(std::max(0.0, mean_error - mean_expected) / quadratic_error) * relative_rms;
 }
 
 Timed timed_run(const Case& of, const Contender& contender, std::uint64_t length,
@@ -104,7 +87,7 @@ Row run_row(const Case& of, const Reference& reference, const Contender& contend
     Row row = empty_row(of, contender, length);
     for (int seed = 1; seed <= settings.seeds; ++seed)
         add_run(of, reference, timed_run(of, contender, length, static_cast<unsigned>(seed)), row);
-    sum_up(of, reference, settings.clock, row);
+    finish(of, reference, settings.clock, row);
     return row;
 }
 
@@ -126,7 +109,7 @@ std::vector<Row> run_rounds(const Case& of, const Reference& reference,
                     timed_run(of, *of_row[k], rows[k].length, static_cast<unsigned>(seed)),
                     rows[k]);
     for (Row& row : rows)
-        sum_up(of, reference, settings.clock, row);
+        finish(of, reference, settings.clock, row);
     return rows;
 }
 

@@ -27,22 +27,20 @@ struct RoundSettings {
 struct Row {
     std::string scene, method;
     unsigned threads = 1;
-    std::uint64_t length = 0;       ///< bundles, or lines where the method has none
-    std::vector<double> wall, cpu;  ///< seconds, one a run
-    std::vector<double> errors;     ///< quadratic, one a run
-    std::vector<double> sum;        ///< of the runs' B
-    double lines = 0;               ///< global lines, or rays of the local methods, of a run
-    double first_shot_rays = 0;     ///< of a run
-    double seconds = 0;             ///< median by the clock that was asked for
-    double quadratic_error = 0;     ///< mean over the runs, (W/m²)²
-    double relative_rms = 0;        ///< its root over the reference's root mean square
-    double gain = 0;                ///< set by set_gains()
-    double mean_error = 0;          ///< quadratic error of the runs' mean
-    double mean_expected = 0;       ///< the same, if chance and the reference were all
-    double reference_share = 0;     ///< the reference's own quadratic error over the row's
-
-    /// Relative RMS of what neither chance nor the reference explain; 0: nothing.
-    double bias() const;
+    std::uint64_t length = 0;              ///< bundles, or lines where the method has none
+    std::vector<double> wall, cpu;         ///< seconds, one a run
+    std::vector<double> errors;            ///< quadratic, one a run
+    std::vector<std::vector<float>> runs;  ///< B of each
+    double lines = 0;                      ///< global lines, or rays of the local methods, of a run
+    double first_shot_rays = 0;            ///< of a run
+    double seconds = 0;                    ///< median by the clock that was asked for
+    double quadratic_error = 0;            ///< mean over the runs, (W/m²)²
+    double relative_rms = 0;               ///< its root over the reference's root mean square
+    double gain = 0;                       ///< set by set_gains()
+    double mean_error = 0;                 ///< quadratic error of the runs' mean
+    double mean_expected = 0;              ///< the same, if chance and the reference were all
+    double mean_bound = 0;                 ///< and what it would stay below with 99.9 % confidence
+    double reference_share = 0;            ///< the reference's own quadratic error over the row's
 };
 
 /// One run, timed from solve()'s call to its return: set-up within, scene and patches without.
@@ -60,8 +58,7 @@ Row run_row(const Case& of, const Reference& reference, const Contender& contend
             std::uint64_t length, const RoundSettings& settings);
 
 /// Runs all contenders at all lengths in turn, once a seed, so that a change of the machine's speed
-/// meets all alike. Lengths are powers of two, found by
-/// trial.
+/// meets all alike. Lengths are powers of two.
 std::vector<Row> run_rounds(const Case& of, const Reference& reference,
                             const std::vector<Contender>& contenders,
                             const RoundSettings& settings);
