@@ -14,7 +14,7 @@ namespace {
 constexpr double allowed_bias = 0.003;
 
 bool says(bool good, const char* what, double found, double allowed) {
-    std::printf("  %-40s %10.4g  allowed %10.4g  %s\n", what, found, allowed,
+    std::printf("  %-46s %10.4g  allowed %10.4g  %s\n", what, found, allowed,
                 good ? "ok" : "WRONG");
     return good;
 }
@@ -23,8 +23,8 @@ bool says(bool good, const char* what, double found, double allowed) {
 
 bool methods_agree(const Reference& reference, const std::vector<Row>& rows) {
     std::printf("relative RMS of each method's mean, against the reference:\n");
-    bool good =
-        says(reference.agrees(), "the reference's two runs", reference.difference, reference.bound);
+    bool good = says(reference.rays.agrees(), "the reference's runs without shot and by rays",
+                     reference.rays.difference, reference.rays.bound);
     for (const Row& row : rows) {
         if (&row != rows_of(rows, row.method).back())
             continue;

@@ -7,7 +7,7 @@
 
 namespace parallux::efficiency {
 
-/// Whether the two runs of the reference agree and every method's mean, at its longest, is where
+/// Whether the reference's runs agree and every method's mean, at its longest, is where
 /// the reference is; says what it found.
 bool methods_agree(const Reference& reference, const std::vector<Row>& rows);
 

@@ -16,5 +16,5 @@ set xlabel "seconds"
 set ylabel "relative RMS error, %"
 set key outside right samplen 2
 stats file using 1 nooutput
-plot for [k=0:STATS_blocks-1] file index k using 1:(100*$2) with linespoints lw 1.5 pt 7 ps 0.7 \
-    lc k + 1 dt (k < 8 ? 1 : 2) title columnheader(1)
+plot for [k=0:STATS_blocks-1] file index k using 1:(100*$2) with linespoints \
+    lw 1.5 pt (k < 8 ? 7 : 6) ps 0.8 lc (k % 8 + 1) title columnheader(1)

@@ -54,11 +54,11 @@ void judge(const Case& of, const Reference& reference, Row& row) {
     for (double error : row.errors)
         row.quadratic_error += error / runs;
     row.relative_rms = std::sqrt(row.quadratic_error / reference.scale);
-    row.reference_share = reference.quadratic_error / row.quadratic_error;
+    row.reference_share = reference.quadratic_error() / row.quadratic_error;
     const std::vector<double> mean = mean_of(row.runs);
     row.mean_error = quadratic_error(of, mean, reference.radiosity);
     const double variance = (row.quadratic_error - row.mean_error) * runs / (runs - 1);
-    row.mean_expected = variance / runs + reference.quadratic_error;
+    row.mean_expected = variance / runs + reference.quadratic_error();
     // The freedom is an estimate from few runs: half of it is on the safe side.
     const double alike = std::max(1.0, freedom(of, row, mean, variance) / 2);
     row.mean_bound = row.mean_expected * f_bound(alike, alike * (runs - 1));

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Raised when references are made in another way, so that no older one is taken for one of these.
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 
 std::string key_of(const Case& of, const ReferenceSettings& settings) {
     char text[17];
@@ -30,14 +30,22 @@ std::filesystem::path file_of(const Case& of, const ReferenceSettings& settings)
     return settings.folder / (name + "-" + key_of(of, settings) + ".json");
 }
 
+Json json_of(const Check& check) {
+    return Json::array({check.difference, check.expected, check.bound});
+}
+
+Check check_of(const Json& json) {
+    return {json.at(0), json.at(1), json.at(2)};
+}
+
 void fill(const Json& json, Reference& reference) {
     json.at("radiosity").get_to(reference.radiosity);
     json.at("scale").get_to(reference.scale);
-    json.at("quadratic_error").get_to(reference.quadratic_error);
-    json.at("difference").get_to(reference.difference);
     json.at("stated").get_to(reference.stated);
     json.at("bound").get_to(reference.bound);
-    json.at("refused").get_to(reference.refused);
+    json.at("own_error").get_to(reference.own_error);
+    reference.rays = check_of(json.at("rays"));
+    reference.exact = check_of(json.at("exact"));
     for (const Json& run : json.at("runs"))
         reference.runs.push_back({run.at("first_shot"), run.at("seed"), run.at("bundles"),
                                   run.at("relative_rms"), run.at("relative_rms_bound"),
@@ -79,12 +87,12 @@ void write_reference(const Case& of, const ReferenceSettings& settings,
                         {"relative_rms", run.relative_rms},
                         {"relative_rms_bound", run.relative_rms_bound},
                         {"seconds", run.seconds}});
-    const Json json{
-        {"key", key_of(of, settings)},        {"scene", of.name},
-        {"patches", of.patches.count()},      {"runs", runs},
-        {"scale", reference.scale},           {"quadratic_error", reference.quadratic_error},
-        {"difference", reference.difference}, {"stated", reference.stated},
-        {"bound", reference.bound},           {"radiosity", reference.radiosity}};
+    const Json json{{"key", key_of(of, settings)},     {"scene", of.name},
+                    {"patches", of.patches.count()},   {"runs", runs},
+                    {"scale", reference.scale},        {"stated", reference.stated},
+                    {"bound", reference.bound},        {"own_error", reference.own_error},
+                    {"rays", json_of(reference.rays)}, {"exact", json_of(reference.exact)},
+                    {"radiosity", reference.radiosity}};
     OutputFile output(file_of(of, settings));
     output.write(json.dump() + "\n");
     output.commit();

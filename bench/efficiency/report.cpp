@@ -120,14 +120,13 @@ void write_json(const std::string& file, const std::vector<Row>& rows,
 void write_curves(const std::string& folder, const std::vector<Row>& rows) {
     std::string text;
     for (const std::string& method : methods_in(rows)) {
-        text += "\"" + method + "\"\n";
+        text += (text.empty() ? "\"" : "\n\n\"") + method + "\"\n";
         for (const Row* row : rows_of(rows, method)) {
             char line[96];
             std::snprintf(line, sizeof line, "%.6g %.6g %.6g\n", row->seconds, row->relative_rms,
                           row->lines);
             text += line;
         }
-        text += "\n\n";
     }
     const std::string scene = std::filesystem::path(rows.front().scene).filename().string();
     OutputFile output(std::filesystem::path(folder) / (scene + ".dat"));
