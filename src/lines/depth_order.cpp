@@ -51,6 +51,17 @@ double exact_depth(const Projection& projection, const Scene& scene, const glm::
     return depth(0) + of_b * (depth(b) - depth(0)) + of_c * (depth(c) - depth(0));
 }
 
+// The depth of a surface's own plane at a line, unsnapped, in radii.
+double plane_depth(const Projection& projection, const Scene& scene, const glm::dvec3& centre,
+                   std::uint32_t s, std::int32_t column, std::int32_t row) {
+    const Bundle& bundle = projection.bundle;
+    const glm::dvec3 normal = surface_normal(scene, scene.surfaces[s]);
+    const glm::dvec3 line = bundle.spacing * ((column - bundle.offset_x) * bundle.x +
+                                              (row - bundle.offset_y) * bundle.y);
+    const glm::dvec3 from_line = scene.positions[scene.surfaces[s].corner[0]] - centre - line;
+    return glm::dot(from_line, normal) / glm::dot(bundle.direction, normal) / projection.radius;
+}
+
 // Whether two faces with a common corner meet like those of a solid: each lies behind the other.
 bool convex(const Scene& scene, const Surface& a, const Surface& b) {
     glm::dvec3 normal = surface_normal(scene, a), origin = scene.positions[a.corner[0]];
@@ -99,6 +110,14 @@ bool TieOrder::before(const Hit& a, const Hit& b) const {
         return from_behind(a) !=
                (relation == SurfaceRelations::touching &&
                 convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
+    // Both met from one side (a lamp close below a ceiling): where snapping cannot tell, their own
+    // planes can.
+    if (relation == SurfaceRelations::parallel) {
+        const double gap = plane_depth(projection_, scene_, centre_, a.surface, column_, row_) -
+                           plane_depth(projection_, scene_, centre_, b.surface, column_, row_);
+        if (std::fabs(gap) > 1e-9)
+            return gap < 0;
+    }
     return a.surface < b.surface;
 }
 

@@ -52,7 +52,7 @@ void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSetting
     if (exact)
         receivers = std::make_shared<std::vector<Emitter>>(all_cells(run.scene, run.patches));
     direct.arrived = true;
-    direct.shot.resize(run.patches.reflectance.size(), 0);
+    direct.shot.assign(run.patches.reflectance.size(), 0);
     const double emitted = sum_of(direct.emitted), enough = settings.until * emitted;
     auto go_on = [&](double left) {
         double done = settings.shots
@@ -83,7 +83,7 @@ void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSetting
                 static_cast<double>(brightest.most) / emitted * settings.rays, least_rays, 4e9));
             shoot_rays(run, emitters, rays,
                        mix64(run.settings.seed + 0x9e3779b97f4a7c15ull * (direct.shots + 1)),
-                       nullptr, [&](double) { return !run.listener.stopped(); });
+                       [&](double) { return !run.listener.stopped(); });
             run.banks.take_totals(shot, direct.escaped);
             direct.rays += rays;
         }

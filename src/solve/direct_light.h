@@ -13,7 +13,7 @@ namespace parallux {
 struct DirectLight {
     bool own = false;      ///< the emission of the patches themselves is left for the pass
     bool arrived = false;  ///< there are local shots, and the banks hold what they brought
-    /// Quanta that single shots and relays took from patches, patch · bands + band; empty: none.
+    /// Quanta that single shots took from patches, patch · bands + band; empty: none.
     std::vector<std::int64_t> shot;
     std::vector<std::int64_t> emitted, absorbed, escaped, unshot;  ///< band totals
     std::vector<float> irradiance;  ///< W/m², patch · bands + band; empty: no light arrived

@@ -16,15 +16,11 @@ namespace {
 // Rays that were stopped early stand for those not cast: a prefix of the sequence is a sample too.
 void stand_for_all(const Run& run, DirectLight& direct) {
     run.banks.scale(1 / direct.done);
-    // Rounded down, so that no patch has sent more than it reflects.
-    for (std::int64_t& shot : direct.shot)
-        shot = static_cast<std::int64_t>(static_cast<double>(shot) / direct.done);
     for (std::uint32_t band = 0; band < run.patches.bands; ++band) {
         direct.escaped[band] = std::llrint(static_cast<double>(direct.escaped[band]) / direct.done);
         direct.emitted[band] = direct.escaped[band];
         for (std::size_t patch = 0; patch < run.patches.count(); ++patch)
-            direct.emitted[band] +=
-                run.banks.received(patch, band) - direct.sent_on(patch * run.patches.bands + band);
+            direct.emitted[band] += run.banks.received(patch, band);
     }
 }
 
@@ -46,16 +42,11 @@ void shoot_sources(const Run& run, DirectLight& direct) {
     if (emitters.pieces.empty())
         return;
     direct.arrived = true;
-    Relays relays(run.scene, run.patches, run.plan.threads);
     direct.done =
-        shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed, &relays,
+        shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed,
                    [&](double done) { return run.listener.go_on("first shot", done, 0); });
     direct.rays = run.plan.first_shot_rays;
     run.banks.take_totals(direct.emitted, direct.escaped);
-    if (!relays.empty()) {
-        direct.shot.assign(run.patches.reflectance.size(), 0);
-        relays.add_to(direct.shot);
-    }
     if (direct.done < 1)
         stand_for_all(run, direct);
 }

@@ -191,8 +191,7 @@ void shoot_locally(const Run& run, const TransferState& state, const std::vector
         return;
     run.banks.clear(run.plan.threads);
     shoot_rays(run, emitters, std::uint64_t(paths) * small.size(),
-               mix64(run.settings.seed ^ stream::local_gather), nullptr,
-               [](double) { return true; });
+               mix64(run.settings.seed ^ stream::local_gather), [](double) { return true; });
     for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
         if (std::binary_search(numbers.begin(), numbers.end(), patch))
             continue;

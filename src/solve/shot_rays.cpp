@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "parallel.h"
-#include "random.h"
-#include "solve/plan_lines.h"
 #include "solve/sobol.h"
 
 namespace parallux {
@@ -62,48 +60,10 @@ RayQuanta ray_quanta(const Emitters& emitters, std::uint64_t rays) {
     return quanta;
 }
 
-std::vector<std::uint32_t> smaller_than(const Patches& patches, double area) {
-    std::vector<std::uint32_t> small;
-    for (std::size_t patch = 0; patch < patches.count(); ++patch)
-        if (patches.area[patch] < area)
-            small.push_back(static_cast<std::uint32_t>(patch));
-    return small;
-}
-
 }  // namespace
 
-Relays::Relays(const Scene& scene, const Patches& patches, unsigned threads)
-    : patches_(patches),
-      small_(mean_area(patches) / 16),
-      relays_(smaller_than(patches, small_)),
-      cells_(scene, patches, relays_),
-      sent_(threads, std::vector<std::int64_t>(relays_.size() * patches.bands, 0)) {
-}
-
-std::uint32_t Relays::find(std::uint32_t patch) const {
-    if (patches_.area[patch] >= small_)
-        return none;
-    return static_cast<std::uint32_t>(cells_.find(patch));
-}
-
-std::int64_t* Relays::sent(unsigned worker, std::uint32_t place) {
-    return &sent_[worker][place * std::size_t(patches_.bands)];
-}
-
-void Relays::add_to(std::vector<std::int64_t>& shot) const {
-    const std::uint32_t bands = patches_.bands;
-    for (const std::vector<std::int64_t>& worker : sent_)
-        for (std::size_t place = 0; place < relays_.size(); ++place)
-            for (std::uint32_t band = 0; band < bands; ++band)
-                shot[relays_[place] * std::size_t(bands) + band] += worker[place * bands + band];
-}
-
 double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, std::uint64_t key,
-                  Relays* relays, const std::function<bool(double)>& go_on) {
-    using Carried = std::array<std::int64_t, max_bands>;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (relays && relays->empty())
-        relays = nullptr;
+                  const std::function<bool(double)>& go_on) {
     const Sobol sobol(key);
     const RayQuanta quanta = ray_quanta(emitters, rays);
     const std::uint32_t bands = emitters.bands;
@@ -119,61 +79,26 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
             last = {&emitter, emitter_normal(run.scene, emitter)};
         return last.normal;
     };
-    // Takes what arrives, and sends on what a relay reflects of it; returns the relay's place.
-    auto receive = [&](std::uint32_t patch, unsigned worker, Carried& carried) {
-        WorkerTotals& totals = run.banks.totals(worker);
-        const std::uint32_t place = patch == none || !relays ? none : relays->find(patch);
-        bool goes_on = false;
-        for (std::uint32_t band = 0; band < bands; ++band) {
-            if (patch == none) {
-                totals.escaped[band] += carried[band];
-                continue;
-            }
-            const std::size_t k = patch * std::size_t(bands) + band;
-            run.banks.receive(worker, k, carried[band]);
-            if (place == none)
-                continue;
-            // Whole quanta, rounded down, so that no patch sends more than it reflects.
-            carried[band] =
-                static_cast<std::int64_t>(static_cast<double>(run.patches.reflectance[k]) *
-                                          static_cast<double>(carried[band]));
-            goes_on = goes_on || carried[band] > 0;
-        }
-        return goes_on ? place : none;
-    };
-    auto relay = [&](std::uint32_t place, std::uint64_t ray, unsigned worker, Carried& carried) {
-        constexpr int longest = 64;
-        Random random(key, stream::relays + ray);
-        for (int bounce = 0; place != none && bounce < longest; ++bounce) {
-            for (std::uint32_t band = 0; band < bands; ++band)
-                relays->sent(worker, place)[band] += carried[band];
-            const Emitter& from = relays->cells().choose(place, random.uniform());
-            const double a = random.uniform(), b = random.uniform(), c = random.uniform(),
-                         d = random.uniform();
-            const SurfaceHit hit = run.rays->closest(
-                point_on(run.scene, from, a, b),
-                cosine_direction(emitter_normal(run.scene, from), c, d), infinity, from.surface);
-            place = receive(patch_of(run.scene, run.patches, hit), worker, carried);
-        }
-    };
     auto shoot = [&](std::uint64_t ray, unsigned worker, Last& last) {
         std::array<double, Sobol::dimensions> p = sobol.point(static_cast<std::uint32_t>(ray));
         std::size_t piece = emitters.choose(p[0]);
         const Emitter& emitter = emitters.pieces[piece];
-        SurfaceHit hit = run.rays->closest(point_on(run.scene, emitter, p[1], p[2]),
-                                           cosine_direction(normal_of(emitter, last), p[3], p[4]),
-                                           infinity, emitter.surface);
+        SurfaceHit hit =
+            run.rays->closest(point_on(run.scene, emitter, p[1], p[2]),
+                              cosine_direction(normal_of(emitter, last), p[3], p[4]),
+                              std::numeric_limits<double>::infinity(), emitter.surface);
+        std::uint32_t patch = patch_of(run.scene, run.patches, hit);
         // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
         WorkerTotals& totals = run.banks.totals(worker);
-        Carried carried{};
         for (std::uint32_t band = 0; band < bands; ++band) {
-            carried[band] = quanta.each[piece * bands + band] +
-                            (static_cast<std::int64_t>(ray) < quanta.rest[band] ? 1 : 0);
-            totals.sky[band] += carried[band];
+            std::int64_t carried = quanta.each[piece * bands + band] +
+                                   (static_cast<std::int64_t>(ray) < quanta.rest[band] ? 1 : 0);
+            totals.sky[band] += carried;
+            if (patch == none)
+                totals.escaped[band] += carried;
+            else
+                run.banks.receive(worker, patch * std::size_t(bands) + band, carried);
         }
-        const std::uint32_t place = receive(patch_of(run.scene, run.patches, hit), worker, carried);
-        if (place != none)
-            relay(place, ray, worker, carried);
     };
 
     // In slabs, so that the caller is heard now and then.

@@ -55,8 +55,8 @@ Scene shaded_lamp() {
 
 TEST_CASE(
     "exact first shots bring what rays bring, past a cube and past a ball of many triangles") {
-    // Every patch below the Šidák bound. Fails when what hides is left out, when shadow rays stop at
-    // the source's own surface, and when points behind the cell's plane are drawn (planted, each
+    // Every patch below the Šidák bound. Fails when what hides is left out, when shadow rays stop
+    // at the source's own surface, and when points behind the cell's plane are drawn (planted, each
     // seen).
     for (bool many : {false, true}) {
         Scene scene = dim_room();
@@ -103,9 +103,8 @@ TEST_CASE("what hides nothing from a cell leaves its direct light without noise"
 }
 
 TEST_CASE("small bright patches are served by rays of their own, without bias") {
-    // Against particles, which know nothing of lines. Fails when what relays take is taken twice,
-    // when bright patches stay bright for the closing gather, and when their own shot is left out
-    // (planted).
+    // Against particles, which know nothing of lines. Fails when they stay bright for the
+    // closing gather, and when their own shot is left out (planted).
     const Scene scene = shaded_lamp();
     const Patches patches = make_patches(scene);
     SolveSettings settings;
