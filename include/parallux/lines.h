@@ -38,9 +38,10 @@ struct BundleSettings {
     bool twice = false;
 };
 
-/// Bundle `index` of a run: a pure function of its arguments. Directions are a spherical Fibonacci
-/// lattice of `count` points under one random rotation, shuffled, or independent and uniform; the
-/// rotation in the plane and the offset are random for each bundle.
+/// Bundle `index` of a run: a pure function of its arguments. Directions are half of a spherical
+/// Fibonacci lattice of 2 · `count` points under one random rotation, every other one turned about,
+/// shuffled; or independent and uniform. The rotation in the plane and the offset are random for
+/// each bundle.
 Bundle make_bundle(const BundleSettings& settings, std::uint64_t index);
 
 /// One crossing of a line and a surface. `toward` is the patch on the side that a traveller along

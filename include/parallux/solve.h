@@ -39,11 +39,13 @@ struct SolveSettings {
     /// 0: grows with the lines. Of a run to a stated error: for as many bundles as its first round
     /// has, in later ones in proportion to theirs.
     std::uint64_t first_shot_rays = 0;
-    std::uint64_t shots = 0;     ///< then so many more, each from the patch with most unshot power
-    std::uint64_t bundles = 0;   ///< 0: from `lines`, else 4096
-    std::uint64_t lines = 0;     ///< wanted total, or local rays; 0: from `bundles`
-    double line_spacing = 0;     ///< δ, metres; 0: from lines_per_patch
-    double lines_per_patch = 4;  ///< c: δ² = mean patch area / c
+    std::uint64_t shots = 0;    ///< then so many more, each from the patch with most unshot power
+    std::uint64_t bundles = 0;  ///< 0: from `lines`, else 4096
+    std::uint64_t lines = 0;    ///< wanted total, or local rays; 0: from `bundles`
+    double line_spacing = 0;    ///< δ, metres; 0: from lines_per_patch
+    /// c: δ² = mean patch area / c; 0: 4 with 1500 bundles a group, more with more as their power
+    /// 2/3, fewer with fewer, 1 to 64; up to 4 where a bundle would have few; of lines 4.
+    double lines_per_patch = 0;
     std::uint32_t batch = 0;  ///< bundles (or as many lines) from one snapshot; 0: of bundles up to
                               ///< min(64, those that pass / 256), of lines one after the other
     /// Share of the bundles that gather once the others have passed, 0 … 1; negative: chosen.

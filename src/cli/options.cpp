@@ -179,8 +179,10 @@ void add_method(CLI::App& app, SolveSettings& s) {
         ->excludes(lines);
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
                            [&](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
-    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4]",
-           [&](auto& v) { s.lines_per_patch = parse_positive("--lines-per-patch", v); })
+    option(
+        "--lines-per-patch", "C",
+        "Lines of a bundle over a mean patch's area [4 with 1500 bundles a group, more with more]",
+        [&](auto& v) { s.lines_per_patch = parse_positive("--lines-per-patch", v); })
         ->excludes(spacing);
     option("--gather-share", "S", "Of the bundles, that gather once the others have passed [0.7]",
            [&](auto& v) { s.gather_share = parse_real("--gather-share", v, 0, 1); });

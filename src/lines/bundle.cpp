@@ -112,8 +112,10 @@ Bundle make_bundle(const BundleSettings& settings, std::uint64_t index) {
     } else {
         Random common(settings.seed, stream::rotation);
         const LatticePoint own = lattice_point(settings, index);
-        bundle.direction =
-            glm::normalize(Rotation(common) * fibonacci_direction(own.point, own.count));
+        // A line has no sense: opposite points of a whole sphere would fall between one another at
+        // random. The upper half of a lattice twice as dense is even; every other one is turned.
+        const glm::dvec3 up = fibonacci_direction(own.point, 2 * own.count);
+        bundle.direction = glm::normalize(Rotation(common) * (own.point % 2 == 0 ? up : -up));
     }
     glm::dvec3 x, y;
     frame_across(bundle.direction, x, y);

@@ -1,5 +1,6 @@
 #include "solve/estimate.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <string>
@@ -30,6 +31,15 @@ void add(const Balance& part, Balance& total) {
             (total.*values)[band] += (part.*values)[band];
     }
 }
+
+// 1 or -1 by each bit of a byte.
+constexpr auto signs_of_byte = [] {
+    std::array<std::array<double, 8>, 256> signs{};
+    for (std::size_t byte = 0; byte < 256; ++byte)
+        for (std::size_t bit = 0; bit < 8; ++bit)
+            signs[byte][bit] = byte >> bit & 1 ? 1 : -1;
+    return signs;
+}();
 
 }  // namespace
 
@@ -85,20 +95,34 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
 }
 
 void Estimate::sketch(const std::vector<float>& irradiance, double lines, unsigned threads) {
-    sketches_.push_back({lines, {}});
-    parallel_for(threads, sketch_size, 1, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t row = begin; row < end; ++row) {
-            double sum = 0;
-            for (std::size_t k = 0; k < irradiance.size(); ++k) {
-                if (patches_.emission[k] > 0)
-                    continue;
-                const double value = std::sqrt(patches_.area[k / patches_.bands]) *
-                                     patches_.reflectance[k] * irradiance[k];
-                sum += mix64(k) >> row & 1 ? value : -value;
-            }
-            sketches_.back().sums[row] = sum;
+    // Sums of fixed chunks, added up in their order: the same bits on any number of threads.
+    constexpr std::size_t chunk = 1 << 12;
+    using Sums = std::array<double, sketch_size>;
+    std::vector<Sums> parts((irradiance.size() + chunk - 1) / chunk);
+    auto add_value = [&](std::size_t k, Sums& sums) {
+        if (patches_.emission[k] > 0)
+            return;
+        const double value =
+            std::sqrt(patches_.area[k / patches_.bands]) * patches_.reflectance[k] * irradiance[k];
+        const std::uint64_t signs = mix64(k);
+        for (std::size_t row = 0; row < sketch_size; row += 8) {
+            const std::array<double, 8>& eight = signs_of_byte[signs >> row & 255];
+            for (std::size_t one = 0; one < 8; ++one)
+                sums[row + one] += value * eight[one];
+        }
+    };
+    parallel_for(threads, parts.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t part = begin; part < end; ++part) {
+            parts[part].fill(0);
+            const std::size_t last = std::min(irradiance.size(), (part + 1) * chunk);
+            for (std::size_t k = part * chunk; k < last; ++k)
+                add_value(k, parts[part]);
         }
     });
+    sketches_.push_back({lines, {}});
+    for (const Sums& sums : parts)
+        for (std::size_t row = 0; row < sketch_size; ++row)
+            sketches_.back().sums[row] += sums[row];
 }
 
 // (tr C)² / tr C² of the covariance C of a group's errors, each by the root of its lines: the

@@ -55,7 +55,7 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     std::vector<double> planned;
     for (std::int64_t quanta : direct.unshot)
         planned.push_back(static_cast<double>(quanta) * plan.watts_per_quantum);
-    result.leftover.emplace(run.scene, run.patches, planned, plan.threads);
+    result.leftover.emplace(run.patches, *run.regions, planned, plan.threads);
     const std::uint64_t emitting = plan.passing() - plan.closing;
     // What the next batch's exits carry is set by the merge before it, in one walk over the
     // patches: its size goes by the light that the merge before that has seen.

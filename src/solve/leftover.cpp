@@ -8,10 +8,10 @@
 
 namespace parallux {
 
-Leftover::Leftover(const Scene& scene, const Patches& patches, std::vector<double> planned,
+Leftover::Leftover(const Patches& patches, const Regions& regions, std::vector<double> planned,
                    unsigned threads)
     : patches_(patches),
-      regions_(make_regions(scene, patches)),
+      regions_(regions),
       planned_(std::move(planned)),
       threads_(threads),
       counts_(threads) {

@@ -17,8 +17,8 @@ namespace parallux {
 /// bounced long is even where much is left over, and a closing gather smooths what is not.
 class Leftover {
 public:
-    /// `planned`: watts emitted in the whole run, a band. Keeps references to scene and patches.
-    Leftover(const Scene& scene, const Patches& patches, std::vector<double> planned,
+    /// `planned`: watts emitted in the whole run, a band. Keeps references to patches and regions.
+    Leftover(const Patches& patches, const Regions& regions, std::vector<double> planned,
              unsigned threads);
 
     /// Bundles enough to know the ways between regions by: what they lead is a small part.
@@ -44,7 +44,7 @@ private:
     std::vector<double> ways() const;
 
     const Patches& patches_;
-    Regions regions_;
+    const Regions& regions_;
     std::vector<double> planned_;
     unsigned threads_;
     std::vector<std::vector<std::uint64_t>> counts_;  // a worker: from · (regions + 1) + to; the

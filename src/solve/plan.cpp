@@ -19,8 +19,8 @@ void check(const SolveSettings& settings) {
         throw Error(Fault::usage, "--bundles and --lines contradict each other; give one");
     if (settings.target_error > 0 && (settings.method != Method::bundles || settings.groups == 1))
         throw Error(Fault::usage, "--target-error needs --method bundles and more than one group");
-    if (!(settings.lines_per_patch > 0) || settings.line_spacing < 0)
-        throw Error(Fault::usage, "lines per patch and line spacing must be positive");
+    if (!(settings.lines_per_patch >= 0) || !(settings.line_spacing >= 0))
+        throw Error(Fault::usage, "lines per patch and line spacing must not be negative");
     bool bundles = settings.method == Method::bundles || settings.method == Method::lines;
     if (!bundles && settings.bundles)
         throw Error(Fault::usage, std::string("--bundles has no meaning for --method ") +

@@ -16,6 +16,7 @@ struct Plan {
     FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
     std::uint64_t first_shot_rays = 0;      ///< of a group
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have
+    double shot_effort = 1;          ///< of exact shots past what hides: samples, by its square
     std::uint32_t groups = 1;        ///< independent runs that the result is the mean of
     bool too_few = false;            ///< bundles, to state an error
     bool shoot_each = true;          ///< the first shots of all groups differ

@@ -30,9 +30,9 @@ std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& setti
 }
 
 // The pass only has to tell the gather roughly how bright everything is, because its error is
-// smoothed by one more bounce: three tenths of the bundles, but as many as the bounces need.
-std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& settings,
-                                std::uint64_t bundles) {
+// smoothed by one more bounce: three tenths of the bundles, but 64 where those are half at most, so
+// that the ways of what is left over are known.
+std::uint64_t gathering_bundles(const SolveSettings& settings, std::uint64_t bundles) {
     const double all = static_cast<double>(bundles);
     if (settings.method != Method::bundles)
         return 0;
@@ -40,8 +40,7 @@ std::uint64_t gathering_bundles(const Patches& patches, const SolveSettings& set
         return std::min(static_cast<std::uint64_t>(settings.gather_share * all), bundles - 1);
     if (bundles < 64)
         return 0;
-    const double bounces = 100 / (1 - mean_reflectance(patches));
-    return static_cast<std::uint64_t>(all - std::min(std::max(0.3 * all, bounces), 0.5 * all));
+    return static_cast<std::uint64_t>(all - std::max(0.3 * all, std::min(64.0, 0.5 * all)));
 }
 
 constexpr std::uint32_t usual_groups = 8;
@@ -63,6 +62,51 @@ bool follows_lines(const SolveSettings& settings) {
 bool in_batches(const SolveSettings& settings) {
     return settings.method == Method::bundles ||
            (settings.method == Method::lines && settings.batch > 0);
+}
+
+// Lines over a mean patch that suit so many bundles a group. The error of directions falls about
+// as the square of their number, that of the lines' places as the number of lines: the finer the
+// directions, the finer the lines. Where a bundle's own work (its frame, its surfaces) takes as
+// long as its lines, a line more costs little.
+double suitable_lines(const Patches& patches, const Plan& plan, double bundles) {
+    constexpr double usual = 4, bundles_of_usual = 1500, most = 64;
+    const double disc = pi * plan.sphere.radius * plan.sphere.radius;
+    const double own_work = 3000 + static_cast<double>(patches.grids.size());  // in lines
+    const double cheap = std::min(usual, own_work * mean_area(patches) / disc);
+    const double fine = usual * std::pow(bundles / bundles_of_usual, 2.0 / 3);
+    return std::clamp(std::max(fine, cheap), 1.0, most);
+}
+
+// The spacing, and with it the bundles that as many lines make as were asked for.
+void plan_spacing(const Patches& patches, const SolveSettings& settings, Plan& plan) {
+    const double disc = pi * plan.sphere.radius * plan.sphere.radius;
+    auto bundles_of = [&] {
+        if (settings.bundles)
+            return static_cast<double>(settings.bundles);
+        if (settings.lines)
+            return std::max(1.0,
+                            std::round(static_cast<double>(settings.lines) * plan.cell / disc));
+        return settings.target_error > 0 ? 2.0 * bundles_for_error : 4096.0;
+    };
+    const bool fixed = settings.line_spacing > 0 || settings.lines_per_patch > 0;
+    double lines = settings.lines_per_patch > 0 ? settings.lines_per_patch : 4;
+    // Of lines in all, fewer bundles are to have more each: three steps settle it well enough.
+    const bool chosen = !fixed && settings.method == Method::bundles;
+    for (int step = 0; step < (chosen ? 3 : 1); ++step) {
+        plan.spacing = settings.line_spacing > 0 ? settings.line_spacing
+                                                 : std::sqrt(mean_area(patches) / lines);
+        plan.cell = plan.spacing * plan.spacing;
+        const auto bundles = static_cast<std::uint64_t>(bundles_of());
+        lines = suitable_lines(patches, plan,
+                               static_cast<double>(bundles) / groups_of(settings, bundles));
+    }
+    if (chosen) {
+        plan.spacing = std::sqrt(mean_area(patches) / lines);
+        plan.cell = plan.spacing * plan.spacing;
+    }
+    plan.bundles = static_cast<std::uint64_t>(bundles_of());
+    if (settings.method == Method::bundles)
+        check_spacing(plan.spacing, plan.sphere.radius);
 }
 
 // A merge counts the exits of a batch in 32 bits.
@@ -95,21 +139,9 @@ double mean_reflectance(const Patches& patches) {
 
 void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& plan) {
     double disc = pi * plan.sphere.radius * plan.sphere.radius;
-    plan.spacing = settings.line_spacing > 0
-                       ? settings.line_spacing
-                       : std::sqrt(mean_area(patches) / settings.lines_per_patch);
-    plan.cell = plan.spacing * plan.spacing;
-    if (settings.method == Method::bundles)
-        check_spacing(plan.spacing, plan.sphere.radius);
+    plan_spacing(patches, settings, plan);
     // A bundle's lines through the sphere, and so the independent lines that stand for it.
     double lines_a_bundle = disc / plan.cell;
-    if (settings.bundles)
-        plan.bundles = settings.bundles;
-    else if (settings.lines)
-        plan.bundles = static_cast<std::uint64_t>(
-            std::max(1.0, std::round(static_cast<double>(settings.lines) / lines_a_bundle)));
-    else
-        plan.bundles = settings.target_error > 0 ? 2 * bundles_for_error : 4096;
     if (follows_lines(settings)) {
         plan.lines_a_unit = static_cast<std::uint64_t>(std::max(1.0, std::round(lines_a_bundle)));
         plan.lines = settings.lines ? settings.lines : plan.bundles * plan.lines_a_unit;
@@ -121,7 +153,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
     plan.too_few = settings.method == Method::bundles && settings.groups == 0 &&
                    plan.bundles < bundles_for_error;
     plan.bundles = (plan.bundles - 1) / plan.groups + 1;
-    plan.gathering = gathering_bundles(patches, settings, plan.bundles);
+    plan.gathering = gathering_bundles(settings, plan.bundles);
     if (in_batches(settings))
         plan.closing = closing_bundles(patches, settings, plan.passing());
     std::uint64_t emitting = plan.passing() - plan.closing;
@@ -138,7 +170,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
     plan.batch = settings.batch;
     if (settings.method == Method::bundles && settings.batch == 0)
         plan.batch =
-            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.passing() / 256, 1, 64));
+            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.passing() / 64, 1, 64));
     if (plan.batch > 0)
         limit_batch(disc / plan.cell, plan);
 }

@@ -1,6 +1,7 @@
 #include "solve/plan_shots.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solve/plan_lines.h"
 #include "solve/shot_exact.h"
@@ -71,6 +72,8 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
             plan.first_shot = FirstShot::rays;
     }
     rays = (rays - 1) / plan.groups + 1;
+    // Shadows get finer as the lines do: 1 with 512 bundles a group.
+    plan.shot_effort = std::clamp(std::sqrt(static_cast<double>(plan.bundles) / 512), 0.5, 8.0);
     plan.shot_rays = static_cast<double>(rays);
     if (plan.first_shot == FirstShot::rays && emits(patches))
         plan.first_shot_rays = rays;

@@ -109,12 +109,14 @@ void for_patches(const Scene& scene, const Patches& patches, const Cutter& cutte
 Regions make_regions(const Scene& scene, const Patches& patches) {
     Regions regions;
     regions.of.resize(patches.count());
+    // Of few patches few regions: the system is solved for every group and band.
+    const std::size_t wanted = std::clamp<std::size_t>(patches.count() / 64, 64, Regions::most);
     for (std::uint32_t cubes : {4u, 3u, 2u, 1u}) {
         const Cutter cutter(scene, cubes);
         std::map<Key, double> areas;
         for_patches(scene, patches, cutter,
                     [&](std::uint32_t patch, Key key) { areas[key] += patches.area[patch]; });
-        if (areas.size() > Regions::most && cubes > 1)
+        if (areas.size() > wanted && cubes > 1)
             continue;
         // The largest are regions; should there be too many, all others are the last one together.
         std::vector<std::pair<double, Key>> order;

@@ -81,6 +81,7 @@ private:
 };
 
 class ExactShot;
+struct Regions;
 
 /// What all stages of one solve work on.
 struct Run {
@@ -92,6 +93,7 @@ struct Run {
     Banks& banks;
     Listener& listener;
     const ExactShot* exact = nullptr;  ///< null unless first shots are exact
+    const Regions* regions = nullptr;  ///< of passes in batches
 };
 
 }  // namespace parallux

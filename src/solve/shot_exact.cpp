@@ -119,7 +119,8 @@ void ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
     for (std::size_t source = 0; source < sources_.size(); ++source) {
         const Source& from = sources_[source];
         const View& view = views_[source];
-        const std::vector<double> found = factors_of(source, run.settings.seed);
+        const std::vector<double> found =
+            factors_of(source, run.settings.seed, run.plan.shot_effort);
         double scale = 1, sum = 0;
         for (double factor : found)
             sum += factor;
@@ -153,7 +154,8 @@ void ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
 }
 
 // Of the pairs that may be hidden, as this shot finds them.
-std::vector<double> ExactShot::factors_of(std::size_t source, std::uint64_t seed) const {
+std::vector<double> ExactShot::factors_of(std::size_t source, std::uint64_t seed,
+                                          double effort) const {
     const Source& from = sources_[source];
     const View& view = views_[source];
     const double own_area = area(from.polygon);
@@ -164,14 +166,19 @@ std::vector<double> ExactShot::factors_of(std::size_t source, std::uint64_t seed
         for (std::size_t k = begin; k < end; ++k) {
             const Pair& pair = view.pairs[k];
             const Emitter& cell = cells()[pair.cell];
+            // Where light changes little across the cell, a few points more are enough.
+            const double finer = surfaces_.empty()   ? effort * effort
+                                 : pair.samples == 1 ? std::sqrt(effort)
+                                                     : effort;
+            const double samples = finer * pair.samples;
+            const auto count = static_cast<std::uint32_t>(std::max(1.0, std::round(samples)));
             Random random = draws(seed, source, k);
             if (surfaces_.empty())
-                factors[k] =
-                    pair.factor * visible_share(scene_, rays_, from, cell, pair.samples, random);
+                factors[k] = pair.factor * visible_share(scene_, rays_, from, cell, count, random);
             else
                 factors[k] = area(polygon_of(scene_, cell)) / own_area *
                              views.mean(cell, from.polygon, {&blockers_[pair.first], pair.blockers},
-                                        pair.samples, random);
+                                        count, random);
         }
     });
     return factors;

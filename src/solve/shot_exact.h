@@ -41,7 +41,7 @@ private:
     // A source and a cell with something between them.
     struct Pair {
         std::uint32_t cell;
-        std::uint32_t samples;          // a grid's side in points; or rays
+        std::uint32_t samples;          // a grid's side in points; or rays; with an effort of 1
         std::uint32_t first, blockers;  // in blockers_
         double factor;                  // with nothing between; of rays
     };
@@ -62,7 +62,7 @@ private:
     const std::vector<Emitter>& cells() const { return *cells_; }
     View view_of(std::size_t source);
     void look(std::size_t source, std::size_t begin, std::size_t end, Chunk& chunk) const;
-    std::vector<double> factors_of(std::size_t source, std::uint64_t seed) const;
+    std::vector<double> factors_of(std::size_t source, std::uint64_t seed, double effort) const;
     bool sees_only_patches(const Source& source) const;
 
     const Scene& scene_;

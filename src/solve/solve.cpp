@@ -14,6 +14,7 @@
 #include "solve/in_order_pass.h"
 #include "solve/local_gather.h"
 #include "solve/plan_shots.h"
+#include "solve/regions.h"
 #include "solve/rounds.h"
 #include "solve/run.h"
 #include "solve/showing.h"
@@ -86,6 +87,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
+    const Regions regions = make_regions(scene, patches);
     Team team(plan.threads);
     DirectLight direct;
     Estimate estimate(patches);
@@ -103,8 +105,9 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
             own.seed = group_seed(settings.seed, estimate.groups());
             const auto from = static_cast<double>(before + group * plan.bundles);
             listener.begin_part(from / end, (from + static_cast<double>(plan.bundles)) / end);
-            run_group({scene, patches, own, plan, rays.get(), banks, listener, exact.get()}, direct,
-                      estimate, seconds);
+            run_group(
+                {scene, patches, own, plan, rays.get(), banks, listener, exact.get(), &regions},
+                direct, estimate, seconds);
         }
         if (estimate.bundles() < before + plan.groups * plan.bundles) {
             estimate.stop();

@@ -116,7 +116,8 @@ std::uint32_t PointViews::grid_for(const Emitter& cell, const Polygon& to,
     hide(blockers);
     const glm::dvec3 normal = emitter_normal(scene_, cell);
     double least = INFINITY, most = 0, whole = 0;
-    for (auto [a, b] : {std::pair(0.5, 0.5), {0.1, 0.1}, {0.9, 0.1}, {0.1, 0.9}, {0.9, 0.9}}) {
+    for (auto [a, b] :
+         {std::pair(0.5, 0.5), {0.02, 0.02}, {0.98, 0.02}, {0.02, 0.98}, {0.98, 0.98}}) {
         const glm::dvec3 point = point_on(scene_, cell, a, b);
         const double seen = visible_form_factor(point, normal, to, blockers_, scratch_);
         least = std::min(least, seen);
