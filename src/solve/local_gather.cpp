@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "parallel.h"
 #include "random.h"
@@ -93,8 +94,28 @@ private:
 
 }  // namespace
 
+namespace {
+
+std::string few_lines_warning(const Run& run, std::uint32_t first, std::size_t count,
+                              std::size_t served) {
+    const std::uint32_t surface =
+        patch_places(run.scene, run.patches, first, first + 1).front().surface;
+    std::string text = std::to_string(count) +
+                       " patches (first: " + run.scene.objects[run.scene.surfaces[surface].object] +
+                       ") are so small that fewer than 32 lines of a group leave each; ";
+    if (served > 0)
+        text += (served == count
+                     ? "local rays serve them"
+                     : "local rays serve the " + std::to_string(served) + " that matter most");
+    else
+        text += "a smaller --line-spacing or more --bundles would serve them better";
+    return text;
+}
+
+}  // namespace
+
 std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state,
-                                      const PassResult& pass) {
+                                      PassResult& pass) {
     const Plan& plan = run.plan;
     const Patches& patches = run.patches;
     if (!run.rays || plan.gathering == 0 || !pass.whole)
@@ -128,7 +149,11 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
     }
     // Where all are as bright as others, lines do as well, and exactly so where light is uniform.
     constexpr double bright = 4;
-    if (!(brightest * all > bright * bright * power))
+    const bool serve = brightest * all > bright * bright * power;
+    if (!found.empty())
+        pass.warnings.push_back(few_lines_warning(run, found.front().patch, found.size(),
+                                                  serve ? std::min(most, found.size()) : 0));
+    if (!serve)
         return {};
     if (found.size() > most) {
         std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(most),

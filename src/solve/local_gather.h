@@ -21,9 +21,9 @@ struct SmallPatch {
 /// The patches below a sixteenth of the mean area that fewer than 32 of the gather's lines will
 /// leave: those whose error weighs most by what the pass has found, as many as local paths can
 /// serve in about half of the lines' time. None where none of them sends more than four times what
-/// others do in the root mean square: lines do as well there. In patch order. O(patches).
-std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state,
-                                      const PassResult& pass);
+/// others do in the root mean square: lines do as well there. In patch order. Tells in the pass's
+/// warnings how many there are, and the name of the first. O(patches).
+std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state, PassResult& pass);
 
 /// Their numbers.
 std::vector<std::uint32_t> numbers_of(const std::vector<SmallPatch>& small);

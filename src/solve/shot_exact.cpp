@@ -167,7 +167,7 @@ std::vector<double> ExactShot::factors_of(std::size_t source, std::uint64_t seed
             const Pair& pair = view.pairs[k];
             const Emitter& cell = cells()[pair.cell];
             // Where light changes little across the cell, a few points more are enough.
-            const double finer = surfaces_.empty()   ? effort * effort
+            const double finer = surfaces_.empty()   ? std::max(1.0, effort * effort)
                                  : pair.samples == 1 ? std::sqrt(effort)
                                                      : effort;
             const double samples = finer * pair.samples;

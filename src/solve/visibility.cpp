@@ -167,7 +167,7 @@ double visible_share(const Scene& scene, const RayScene& rays, const Source& sou
 
 std::uint32_t rays_for(const Scene& scene, const RayScene& rays, const Source& source,
                        const Emitter& cell) {
-    constexpr std::uint32_t tries = 32, few = 4, many = 64;
+    constexpr std::uint32_t tries = 32, few = 8, many = 64;
     Random random(cell.patch, stream::first_shot + 2);
     const double share = visible_share(scene, rays, source, cell, tries, random);
     return share > 0 && share < 1 ? many : few;

@@ -52,7 +52,8 @@ private:
 };
 
 /// Which share of what one polygon sends the other arrives: `count` pairs of even points with a
-/// random start, weighted by the kernel cos θ cos θ' / r², a shadow ray each.
+/// random start, weighted by the kernel cos θ cos θ' / r², a shadow ray each. A ratio of two means,
+/// and so off by some 1 / count of its own error.
 double visible_share(const Scene& scene, const RayScene& rays, const Source& source,
                      const Emitter& cell, std::uint32_t count, Random& random);
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "parallux/solve.h"
+#include "solve/plan_lines.h"
 #include "solve/foresight.h"
 #include "support/bare_room.h"
 
@@ -83,12 +84,7 @@ TEST_CASE("rounds and their previews: equal bits on any number of threads, seen 
     CHECK(alone.relative_rms_bound <= 0.008);
     CHECK(alone.energy.residual[0] == 0);
     // As many rays a bundle in all rounds, but for what rounds up in each group.
-    double area = 0, reflecting = 0;
-    for (std::size_t k = 0; k < room.patches.count(); ++k) {
-        area += room.patches.area[k];
-        reflecting += room.patches.area[k] * room.patches.reflectance[k];
-    }
-    const double first = 640 / (1 - reflecting / area);
+    const double first = 2 * bundles_for_error;
     MESSAGE("bundles ", alone.bundles, ", rays ", alone.first_shot_rays);
     CHECK(static_cast<double>(alone.first_shot_rays) ==
           doctest::Approx(40000 * static_cast<double>(alone.bundles) / first).epsilon(0.01));
