@@ -9,7 +9,7 @@ namespace parallux::efficiency {
 
 namespace {
 
-constexpr int most_tries = 3;
+constexpr int most_tries = 6;
 constexpr double near = 0.05;  // a goal is met where the error is so close to it
 
 double length_of(const Row& row) {
@@ -30,7 +30,7 @@ Goal find_goal(const Case& of, const Reference& reference, const Contender& cont
                    : std::vector<const Row*>{curve.end() - 2, curve.end()};
     Power error = fit(part, length_of, [](const Row& row) { return row.relative_rms; });
     const Power seconds = fit(part, length_of, [](const Row& row) { return row.seconds; });
-    error.slope = std::clamp(error.slope, -1.25, -0.3);
+    error.slope = std::clamp(error.slope, -1.25, -0.6);
     const Row& last = *part.back();
 
     Goal goal;

@@ -12,7 +12,7 @@ namespace parallux::efficiency {
 
 struct ReferenceSettings {
     std::filesystem::path folder;     ///< where references are kept
-    std::uint64_t bundles = 409'600;  ///< of each run: 200 times those of some tenths of a second
+    std::uint64_t bundles = 200'000;  ///< of each run: 200 times those of some tenths of a second
     unsigned threads = 0;             ///< 0: all
 };
 

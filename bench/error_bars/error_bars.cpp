@@ -52,13 +52,13 @@ int run(const Options& options, const std::vector<std::string>& names, const std
 }
 
 void add_settings(CLI::App& app, SolveSettings& settings) {
-    app.add_option("--lines-per-patch", settings.lines_per_patch, "Of every run [4]");
+    app.add_option("--lines-per-patch", settings.lines_per_patch, "Of every run [chosen]");
     app.add_option("--gather-share", settings.gather_share, "Of every run [chosen]");
     app.add_option("--batch", settings.batch, "Of every run [chosen]");
     app.add_option("--groups", settings.groups, "Of every run of slope [chosen]");
     const std::map<std::string, FirstShot> shots{
         {"rays", FirstShot::rays}, {"exact", FirstShot::exact}, {"none", FirstShot::off}};
-    app.add_option("--first-shot", settings.first_shot, "Of all parts but slope [rays]")
+    app.add_option("--first-shot", settings.first_shot, "Of all parts but slope [chosen]")
         ->transform(CLI::CheckedTransformer(shots));
 }
 
