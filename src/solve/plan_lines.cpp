@@ -109,6 +109,15 @@ void plan_spacing(const Patches& patches, const SolveSettings& settings, Plan& p
         check_spacing(plan.spacing, plan.sphere.radius);
 }
 
+// Bundles from one snapshot: as few as make merging some tenth of the work, and never so many that
+// the light lags behind. At reflectance 0.8 and 30 000 bundles the error with 17 is 2.8 times that
+// with one.
+std::uint32_t suitable_batch(const Patches& patches, const Plan& plan) {
+    const double merging = 13 * plan.cell / mean_area(patches);
+    const double most = static_cast<double>(plan.passing()) / 128;
+    return static_cast<std::uint32_t>(std::clamp(std::min(merging, most), 1.0, 64.0));
+}
+
 // A merge counts the exits of a batch in 32 bits.
 constexpr double most_lines_a_batch = 1 << 30;
 
@@ -169,8 +178,7 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.emission_cell *= 2;
     plan.batch = settings.batch;
     if (settings.method == Method::bundles && settings.batch == 0)
-        plan.batch =
-            static_cast<std::uint32_t>(std::clamp<std::uint64_t>(plan.passing() / 64, 1, 64));
+        plan.batch = suitable_batch(patches, plan);
     if (plan.batch > 0)
         limit_batch(disc / plan.cell, plan);
 }
