@@ -47,13 +47,6 @@ glm::dvec3 point_in(const Polygon& polygon, double a, double b) {
            root * ((1 - b) * (polygon[k - 1] - polygon[0]) + b * (polygon[k] - polygon[0]));
 }
 
-bool is_behind(const Polygon& polygon, const Polygon& of) {
-    const glm::dvec3 normal = unit_normal(of);
-    return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& corner) {
-        return glm::dot(corner - of[0], normal) <= 0;
-    });
-}
-
 double mean_by_rule(const Polygon& cell, const Polygon& source) {
     const glm::dvec3 normal = unit_normal(cell);
     double sum = 0;
@@ -85,8 +78,7 @@ std::vector<std::uint32_t> PointViews::between(const Polygon& from, const Polygo
     std::vector<std::uint32_t> found;
     const Shaft shaft(from, to);
     for (std::uint32_t s = 0; s < surfaces_.size(); ++s)
-        if (s != own && s != source && shaft.holds(surfaces_[s]) &&
-            !(closed_ && is_behind(from, surfaces_[s])))
+        if (s != own && s != source && shaft.holds(surfaces_[s]))
             found.push_back(s);
     return found;
 }

@@ -25,10 +25,10 @@ double exchange_nearly(const Polygon& cell, const Polygon& source);
 class PointViews {
 public:
     PointViews(const Scene& scene, const std::vector<Polygon>& surfaces)
-        : scene_(scene), surfaces_(surfaces), closed_(is_closed(scene)) {}
+        : scene_(scene), surfaces_(surfaces) {}
 
-    /// Surfaces that may hide `to` from `from`, without these two. In a closed scene, what is met
-    /// from behind was met from the front before, and is left out.
+    /// Surfaces that may hide `to` from `from`, without these two. What turns its back on `from`
+    /// is among them: it hides what is outside from patches within a solid.
     std::vector<std::uint32_t> between(const Polygon& from, const Polygon& to, std::uint32_t own,
                                        std::uint32_t source) const;
 
@@ -46,7 +46,6 @@ private:
 
     const Scene& scene_;
     const std::vector<Polygon>& surfaces_;
-    bool closed_;
     std::vector<Polygon> blockers_;
     VisibleScratch scratch_;
 };
