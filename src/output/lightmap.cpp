@@ -87,7 +87,7 @@ private:
             for (int i = -pad; i < int(owned_texels(chart.width)) - pad; ++i) {
                 int x = std::clamp(i, 0, width - 1), y = std::clamp(j, 0, height - 1);
                 if (int over = x + y - limit; triangle && over > 0)
-                    x -= (over + 1) / 2, y -= (over + 1) / 2;
+                    x -= over / 2, y -= over - over / 2;
                 if (x != i || y != j)
                     std::copy_n(texel(chart, x, y), map_.bands, texel(chart, i, j));
             }
