@@ -22,6 +22,7 @@ struct Seen {
     float distance = HUGE_VALF;  // squared, in texels
     std::uint32_t surface = none;
     float u = 0, v = 0;
+    bool shared = false;  // lies well within two surfaces
 };
 
 // A triangle in the picture, in texels, and its corners' (u, v).
@@ -74,14 +75,19 @@ void cover(const Placed& triangle, std::uint32_t surface, const Lightmap& map,
             const std::array<double, 3> w = nearest(triangle.at, centre);
             const glm::dvec2 way =
                 w[0] * triangle.at[0] + w[1] * triangle.at[1] + w[2] * triangle.at[2] - centre;
-            const auto distance = static_cast<float>(glm::dot(way, way));
+            const double inside = std::min({w[0], w[1], w[2]});
+            const auto distance = inside > 0 ? 0.0f : static_cast<float>(glm::dot(way, way));
             Seen& texel =
                 seen[static_cast<std::size_t>(y) * map.width + static_cast<std::size_t>(x)];
+            texel.shared =
+                texel.shared || (inside > 1e-3 && texel.distance < 0 && texel.surface != surface);
             if (distance > reach * reach || distance >= texel.distance)
                 continue;
             const glm::dvec2 uv =
                 w[0] * triangle.uv[0] + w[1] * triangle.uv[1] + w[2] * triangle.uv[2];
-            texel = {distance, surface, static_cast<float>(uv.x), static_cast<float>(uv.y)};
+            // Well within is less than 0: what else comes there is an overlap.
+            texel = {inside > 1e-3 ? -1.0f : distance, surface, static_cast<float>(uv.x),
+                     static_cast<float>(uv.y), texel.shared};
         }
 }
 
@@ -94,6 +100,24 @@ void check_own(const Scene& scene) {
                             (object < scene.objects.size() ? scene.objects[object] : "") +
                             "' has no TEXCOORD_1 for a lightmap; use --lightmap-uv pack");
         }
+}
+
+// Layouts made for one picture an object overlap when all share one.
+void check_overlap(const Scene& scene, const std::vector<Seen>& seen) {
+    std::size_t covered = 0, shared = 0;
+    std::uint32_t example = 0;
+    for (const Seen& texel : seen) {
+        covered += texel.surface != none && texel.distance <= 0;
+        if (texel.shared && shared++ == 0)
+            example = scene.surfaces[texel.surface].object;
+    }
+    if (shared > 8 + covered / 1000)
+        throw Error(Fault::input,
+                    scene.file.string() + ": surfaces lie upon each other in TEXCOORD_1 (" +
+                        std::to_string(shared) + " of " + std::to_string(covered) +
+                        " texels, one of object '" +
+                        (example < scene.objects.size() ? scene.objects[example] : "") +
+                        "'); use --lightmap-uv pack");
 }
 
 }  // namespace
@@ -124,6 +148,7 @@ void paint_own_uv(const Scene& scene, const Patches& patches, const Solution& so
         }
         builder.add(frame.face);
     }
+    check_overlap(scene, seen);
     builder.finish();
     map.mesh.colours.clear();
     if (scene.attributes.empty())

@@ -120,7 +120,7 @@ struct MeshUv {
 
 }  // namespace
 
-// Planted: texture coordinates half a texel off; rows from the bottom; width for height.
+// Planted: texture coordinates half a texel off; a flat cell that takes its neighbour's value.
 TEST_CASE("a lightmap looked up at cells' centres gives the patches' values") {
     Case c = corner(plane);
     std::vector<PatchPlace> places = patch_places(c.scene, c.patches);
@@ -161,8 +161,8 @@ TEST_CASE("a lightmap looked up at cells' centres gives the patches' values") {
     std::filesystem::remove(temporary("c.glb"));
 }
 
-// Planted: padding not filled; padding of one texel only; odd chart positions; a shelf one texel
-// too low, so that charts overlap.
+// Planted: padding of one texel only; odd chart positions; shelves two texels too high up, so that
+// charts overlap.
 TEST_CASE("no filter and no mip level reaches a foreign texel") {
     for (bool flat : {false, true})
         for (std::uint32_t size : {0u, 47u, 128u}) {
@@ -215,7 +215,7 @@ TEST_CASE("no filter and no mip level reaches a foreign texel") {
         }
 }
 
-// Planted: the lit side of a wall taken, or the mean.
+// Planted: the lit side of a wall taken.
 TEST_CASE("no light comes through under a wall that stands between cells") {
     Case c;
     c.scene.bands = 3;
@@ -232,7 +232,7 @@ TEST_CASE("no light comes through under a wall that stands between cells") {
             CHECK(picture.at(int(floor.x) + x, int(floor.y) + y, 0) == (x < 8 ? 4 : 0));
 }
 
-// Planted: the time of day in the header; the scene's whole path.
+// Planted: the scene's whole path in the header.
 TEST_CASE("the header names quantity, unit and scene, and equal lightmaps are equal files") {
     Case c = corner(plane);
     c.scene.file = "/somewhere/room.gltf";
@@ -267,8 +267,8 @@ TEST_CASE("a lightmap too small for its charts is refused") {
     CHECK_THROWS_AS(make_lightmap(c.scene, c.patches, c.solution, settings), Error);
 }
 
-// Planted: coordinates of the wrong set; v upwards; a texel that takes its first triangle's value
-// in place of its nearest one's.
+// Planted: coordinates of the wrong set; a texel that takes its last triangle's value in place of
+// its nearest one's.
 TEST_CASE("a scene's own second texture coordinates are used when asked for") {
     // A packed lightmap's mesh is a scene with such coordinates.
     Case c = corner(plane);
@@ -304,6 +304,9 @@ TEST_CASE("a scene's own second texture coordinates are used when asked for") {
             CHECK(picture.bilinear(uv, b) ==
                   doctest::Approx(loaded.solution.radiosity[3 * patch + b]).epsilon(1e-4));
     }
+    // Two objects in one place of the picture are refused.
+    loaded.scene.lightmap_uv[1] = loaded.scene.lightmap_uv[0];
+    CHECK_THROWS_AS(make_lightmap(loaded.scene, loaded.patches, loaded.solution, settings), Error);
     std::filesystem::remove(temporary("o.exr"));
     std::filesystem::remove(temporary("o.glb"));
 }

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "parallux/solve.h"
-#include "solve/plan_lines.h"
 #include "solve/foresight.h"
+#include "solve/plan_lines.h"
 #include "support/bare_room.h"
 
 using namespace parallux;
