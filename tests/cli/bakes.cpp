@@ -5,7 +5,7 @@
 
 #include "cli/run.h"
 
-// Bakes from the command line. Each case names the planted errors that were seen to fail it.
+// Bakes from the command line. Cases name the planted errors that were seen to fail them.
 
 namespace {
 
@@ -18,7 +18,6 @@ std::vector<std::string> solve(const Workplace& place, std::vector<std::string> 
 
 }  // namespace
 
-// Planted: the order of vertices by a hash table's; the time in the EXR.
 TEST_CASE("equal runs leave equal bakes, whatever the threads") {
     Workplace place;
     std::vector<std::string> names = {"b.glb", "b.gltf", "b.ply", "map.exr", "map.glb"};
@@ -65,7 +64,6 @@ TEST_CASE("bakes that cannot be written are refused before the solve with code 4
     CHECK(place.files() == std::vector<std::string>{"file", "folder.glb", "map.glb"});
 }
 
-// Planted: bakes written in place; a failing bake that keeps the lightmap back.
 TEST_CASE("an older bake stays whole when a run fails") {
     Workplace place;
     for (std::string name : {"b.glb", "m.exr", "m.glb"})
@@ -82,7 +80,7 @@ TEST_CASE("an older bake stays whole when a run fails") {
         CHECK(read_file(place / name) != "older");
 }
 
-// Planted: one of the checks left out.
+// Planted: the lightmap's mesh not among the outputs.
 TEST_CASE("bake options that make no sense are refused with code 2") {
     Workplace place;
     for (std::vector<std::string> options :

@@ -10,7 +10,7 @@
 #include "parallux/parallux.h"
 #include "support/hand_made.h"
 
-// Vertex colours. Each case names the planted errors that were seen to fail it.
+// Vertex colours. Cases name the planted errors that were seen to fail them.
 
 using namespace parallux;
 using hand_made::Case;

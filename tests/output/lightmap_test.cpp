@@ -12,7 +12,7 @@
 #include "parallux/parallux.h"
 #include "random.h"
 
-// Lightmaps. Each case names the planted errors that were seen to fail it.
+// Lightmaps. Cases name the planted errors that were seen to fail them.
 
 using namespace parallux;
 using hand_made::Case;
