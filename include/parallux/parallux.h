@@ -1,7 +1,9 @@
 #pragma once
 
 /// \file Everything a user of the library needs, in the order of the flow.
+#include "parallux/bake.h"
 #include "parallux/error.h"
+#include "parallux/lightmap.h"
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/picture.h"

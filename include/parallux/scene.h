@@ -109,6 +109,9 @@ struct Scene {
     std::vector<glm::dvec3> positions;  ///< welded: equal positions have one index
     std::vector<Surface> surfaces;
     std::vector<SurfaceAttributes> attributes;  ///< empty, or one a surface
+    /// Empty, or one a surface, affine in (u, v) as attributes are: the file's second texture
+    /// coordinates, for lightmaps; not a number where a mesh has none. Read only when asked for.
+    std::vector<std::array<glm::vec2, 3>> lightmap_uv;
     std::vector<Material> materials;
     std::vector<std::string> objects;
     std::vector<Texture> textures;
@@ -126,6 +129,7 @@ struct LoadSettings {
     Spectrum reflectance = Spectrum::constant(0.5f);  ///< of faces without a material
     double scale = 1;                                 ///< multiplies every length of the file
     bool keep_triangles = false;                      ///< do not join triangle pairs
+    bool lightmap_uv = false;                         ///< read glTF's TEXCOORD_1 as lightmap_uv
 };
 
 /// Reads a glTF (.gltf, .glb), OBJ, STL or Parallux (.json) scene; the content decides where the

@@ -33,7 +33,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, const std::string& valu
 }
 
 void add_unavailable(CLI::App& app) {
-    for (std::string name : {"--bake", "--lightmap", "--checkpoint", "--resume", "--bands"})
+    for (std::string name : {"--checkpoint", "--resume", "--bands"})
         app.add_option_function<std::vector<std::string>>(
                name, [name](const std::vector<std::string>&) { not_available(name); })
             ->expected(0, 1)
@@ -65,6 +65,20 @@ std::filesystem::path parse_image(const std::string& value) {
     std::filesystem::path file = parse_output("--image", value);
     if (file.extension() != ".exr" && file.extension() != ".png")
         refuse("--image", value, "expected a name that ends in .exr or .png");
+    return file;
+}
+
+std::filesystem::path parse_bake(const std::string& value) {
+    std::filesystem::path file = parse_output("--bake", value);
+    if (file.extension() != ".glb" && file.extension() != ".gltf" && file.extension() != ".ply")
+        refuse("--bake", value, "expected a name that ends in .glb, .gltf or .ply");
+    return file;
+}
+
+std::filesystem::path parse_lightmap(const std::string& value) {
+    std::filesystem::path file = parse_output("--lightmap", value);
+    if (file.extension() != ".exr")
+        refuse("--lightmap", value, "expected a name that ends in .exr");
     return file;
 }
 
@@ -107,8 +121,9 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
     of_picture(
         add(app, "--size", "WxH", "Pixels; W alone takes the camera's aspect [1024]",
             [&](auto& v) { std::tie(picture.width, picture.height) = parse_size("--size", v); }));
-    of_picture(add(app, "--exposure", "EV", "Stops on top of the automatic exposure of PNG [0]",
-                   [&](auto& v) { picture.exposure = parse_real("--exposure", v, -64, 64); }));
+    add(app, "--exposure", "EV", "Stops on top of the automatic exposure of PNG and --unlit [0]",
+        [&](auto& v) { picture.exposure = o.bake.exposure = parse_real("--exposure", v, -64, 64); })
+        ->group("Picture");
     of_picture(add(app, "--tone", "CURVE", "Of PNG: filmic or clamp [filmic]", [&](auto& v) {
         picture.filmic = parse_choice<bool>("--tone", v, {{"filmic", true}, {"clamp", false}});
     }));
@@ -120,7 +135,59 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
             "Rewrite the pictures while the run goes on, with what the groups of bundles done "
             "so far come to, at most every S seconds [off]",
             [&](auto& v) { o.refresh = parse_positive("--refresh", v); }));
-    of_picture(app.add_flag("--flat", picture.flat, "Show the patches unsmoothed"));
+    app.add_flag("--flat", picture.flat, "Show the patches unsmoothed, in bakes as well")
+        ->group("Picture");
+}
+
+void add_bakes(CLI::App& app, SolveOptions& o) {
+    auto* bake = app.add_option_function<std::vector<std::string>>(
+        "--bake",
+        [&](const std::vector<std::string>& values) {
+            for (const std::string& value : values)
+                o.bakes.push_back(parse_bake(value));
+        },
+        "Vertex colours: .glb, .gltf (COLOR_0) or .ply; repeatable");
+    bake->type_name("FILE")->allow_extra_args(false)->group("Outputs");
+    auto* lightmap = add(app, "--lightmap", "FILE.exr",
+                         "A texel a patch, and beside it FILE.glb with TEXCOORD_1 into it",
+                         [&](auto& v) { o.lightmap = parse_lightmap(v); });
+    lightmap->group("Outputs");
+
+    const char* group = "Bake";
+    add(app, "--bake-mesh", "M", "original, or patches: a face a patch [original]",
+        [&](auto& v) {
+            o.bake.mesh = parse_choice<BakeMesh>(
+                "--bake-mesh", v,
+                {{"original", BakeMesh::original}, {"patches", BakeMesh::patches}});
+        })
+        ->needs(bake)
+        ->group(group);
+    add(app, "--quantity", "Q", "irradiance, radiosity or radiance [radiosity]", [&](auto& v) {
+        o.bake.quantity = o.lightmap_settings.quantity =
+            parse_choice<Quantity>("--quantity", v,
+                                   {{"irradiance", Quantity::irradiance},
+                                    {"radiosity", Quantity::radiosity},
+                                    {"radiance", Quantity::radiance}});
+    })->group(group);
+    app.add_flag("--unlit", o.bake.unlit,
+                 "Ready to view: exposed, clamped to 1, KHR_materials_unlit")
+        ->needs(bake)
+        ->group(group);
+    add(app, "--lightmap-uv", "UV",
+        "pack (a chart a surface), or own: the TEXCOORD_1 of a glTF scene [pack]",
+        [&](auto& v) {
+            o.lightmap_settings.own_uv = o.load.lightmap_uv =
+                parse_choice<bool>("--lightmap-uv", v, {{"pack", false}, {"own", true}});
+        })
+        ->needs(lightmap)
+        ->group(group);
+    add(app, "--lightmap-size", "N", "Texels wide and high [a texel a patch; with own 1024]",
+        [&](auto& v) {
+            o.lightmap_settings.size =
+                static_cast<std::uint32_t>(parse_count("--lightmap-size", v, 8, 65536));
+        })
+        ->needs(lightmap)
+        ->group(group);
 }
 
 void add_patches(CLI::App& app, PatchSettings& patches) {
@@ -213,7 +280,7 @@ void add_run(CLI::App& app, SolveOptions& o) {
     const char* group = "Run";
     add(app, "--threads", "T", "0: all [0]", [&](auto& v) {
         o.solve.threads = static_cast<unsigned>(parse_count("--threads", v, 0, 4096));
-        o.picture.threads = o.solve.threads;
+        o.picture.threads = o.bake.threads = o.lightmap_settings.threads = o.solve.threads;
     })->group(group);
     add(app, "--vectors", "SET",
         "Instruction set: auto, plain, sse4, avx2 or avx512; part of the speed alone [auto]",
@@ -260,6 +327,14 @@ void settle(SolveOptions& o) {
     bool independent = o.solve.method == Method::lines || o.solve.method == Method::matrix;
     contradict(!independent && o.solve.sphere_radius > 0,
                "--sphere-radius needs --method lines or matrix");
+    const bool bakes = !o.bakes.empty() || !o.lightmap.empty();
+    contradict(o.picture.exposure != 0 && o.images.empty() && !o.bake.unlit,
+               "--exposure needs --image, or --bake with --unlit");
+    contradict(o.picture.flat && o.images.empty() && !bakes,
+               "--flat needs --image, --bake or --lightmap");
+    contradict(o.bake.quantity != Quantity::radiosity && !bakes,
+               "--quantity needs --bake or --lightmap");
+    o.bake.flat = o.lightmap_settings.flat = o.picture.flat;
     if (o.quiet && o.progress == ProgressMode::automatic)
         o.progress = ProgressMode::off;
     for (double* length : {&o.patches.size, &o.solve.line_spacing, &o.solve.sphere_radius})
@@ -298,6 +373,7 @@ CLI::App* add_solve(CLI::App& app, SolveOptions& o) {
     auto* solve = app.add_subcommand("solve", "Solve a scene's radiosity; give the outputs wanted");
     add_scene(*solve, o.scene, o.load);
     add_outputs(*solve, o);
+    add_bakes(*solve, o);
     add_patches(*solve, o.patches);
     add_method(*solve, o.solve);
     add_run(*solve, o);
@@ -318,7 +394,8 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& o) {
 
 std::vector<std::filesystem::path> SolveOptions::outputs() const {
     std::vector<std::filesystem::path> files = images;
-    for (const std::filesystem::path& file : {table, stats})
+    files.insert(files.end(), bakes.begin(), bakes.end());
+    for (const std::filesystem::path& file : {table, stats, lightmap, lightmap_mesh(lightmap)})
         if (!file.empty())
             files.push_back(file);
     return files;

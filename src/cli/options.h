@@ -32,7 +32,10 @@ struct SolveOptions {
     std::string camera;  ///< name or index; "": the first
     std::vector<std::filesystem::path> images;
     double refresh = 0;  ///< seconds between pictures while the run goes on; 0: none
-    std::filesystem::path table, stats;  ///< empty: not wanted
+    std::vector<std::filesystem::path> bakes;
+    BakeSettings bake;
+    LightmapSettings lightmap_settings;
+    std::filesystem::path table, stats, lightmap;  ///< empty: not wanted
     ProgressMode progress = ProgressMode::automatic;
     bool quiet = false;
 

@@ -92,6 +92,18 @@ void write_images(const SolveOptions& options, const Scene& scene, const Patches
     attempt.rethrow();
 }
 
+void write_bakes(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                 const Solution& solution) {
+    const Bake bake = make_bake(scene, patches, solution, options.bake);
+    Attempts attempt;
+    for (const std::filesystem::path& file : options.bakes)
+        attempt([&] {
+            WritingFile guard;
+            write_bake(file, scene, bake);
+        });
+    attempt.rethrow();
+}
+
 void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,
                    Solution& solution) {
     const double before = seconds_since_start();
@@ -103,6 +115,15 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
         });
     if (!options.images.empty())
         attempt([&] { write_images(options, scene, patches, solution); });
+    if (!options.bakes.empty())
+        attempt([&] { write_bakes(options, scene, patches, solution); });
+    if (!options.lightmap.empty())
+        attempt([&] {
+            const Lightmap lightmap =
+                make_lightmap(scene, patches, solution, options.lightmap_settings);
+            WritingFile guard;
+            write_lightmap(options.lightmap, scene, lightmap);
+        });
     solution.seconds.total = seconds_since_start();
     solution.seconds.output = solution.seconds.total - before;
     if (!options.stats.empty())

@@ -17,6 +17,10 @@ void check_camera(const SolveOptions& options, Scene& scene);
 void write_images(const SolveOptions& options, const Scene& scene, const Patches& patches,
                   const Solution& solution);
 
+/// The same for bakes.
+void write_bakes(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                 const Solution& solution);
+
 /// Writes all that is wanted, the statistics last and with the time that the others took. A file
 /// that cannot be written keeps none of the others back; the first failure is thrown at the end.
 void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,

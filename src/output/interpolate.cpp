@@ -254,9 +254,15 @@ void Interpolation::drop_unseen(std::uint32_t surface, bool back, double u, doub
 void Interpolation::at(std::uint32_t surface, bool back, double u, double v,
                        float* irradiance) const {
     const SurfaceGrid& grid = patches_.grids[surface];
+    std::uint32_t cell = cell_at(scene_.surfaces[surface].shape(), grid.nu, grid.nv,
+                                 static_cast<float>(u), static_cast<float>(v));
+    in_cell(surface, back, cell, u, v, irradiance);
+}
+
+void Interpolation::in_cell(std::uint32_t surface, bool back, std::uint32_t cell, double u,
+                            double v, float* irradiance) const {
+    const SurfaceGrid& grid = patches_.grids[surface];
     Shape shape = scene_.surfaces[surface].shape();
-    std::uint32_t cell =
-        cell_at(shape, grid.nu, grid.nv, static_cast<float>(u), static_cast<float>(v));
     std::array<double, 4> weight = corner_weights(shape, grid, cell, u, v);
     std::uint32_t piece = pieces_.index(surface, back, cell);
     if (torn_[pieces_.patch(piece)])

@@ -27,6 +27,9 @@ public:
 
     /// Irradiance at a surface's point, one value a band into `irradiance`.
     void at(std::uint32_t surface, bool back, double u, double v, float* irradiance) const;
+    /// The same as one cell of the surface sees it: on the cell's border others may differ.
+    void in_cell(std::uint32_t surface, bool back, std::uint32_t cell, double u, double v,
+                 float* irradiance) const;
 
 private:
     void drop_unseen(std::uint32_t surface, bool back, double u, double v,

@@ -71,19 +71,6 @@ Spectrum radiance_of(const Spectrum& emission, const Spectrum& reflectance,
     return radiance;
 }
 
-// Log-mean radiance of the patches that mostly reflect: how bright a sample is beside the rest.
-double usual_luminance(const Patches& patches, const Solution& solution) {
-    double sum = 0, area = 0;
-    for (std::size_t p = 0; p < patches.count(); ++p) {
-        const float* b = &solution.radiosity[p * solution.bands];
-        double l = luminance(b, solution.bands) / pi;
-        double emitted = luminance(&patches.emission[p * solution.bands], solution.bands) / pi;
-        if (l > 0 && emitted < l / 2)
-            sum += patches.area[p] * std::log(l), area += patches.area[p];
-    }
-    return area > 0 ? std::exp(sum / area) : 1;
-}
-
 class Renderer {
 public:
     Renderer(const Scene& scene, const Patches& patches, const Solution& solution,

@@ -10,8 +10,6 @@ namespace parallux {
 
 namespace {
 
-constexpr double middle_grey = 0.18;
-
 double hable(double x) {
     constexpr double a = 0.15, b = 0.50, c = 0.10, d = 0.20, e = 0.02, f = 0.30;
     return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
@@ -57,6 +55,18 @@ double exposure_factor(const Picture& picture, const PictureSettings& settings) 
     for (std::size_t i = tail; i < lit.size() - tail; ++i)
         sum += std::log(double(lit[i]));
     return stops * middle_grey / std::exp(sum / double(lit.size() - 2 * tail));
+}
+
+double usual_luminance(const Patches& patches, const Solution& solution) {
+    double sum = 0, area = 0;
+    for (std::size_t p = 0; p < patches.count(); ++p) {
+        const float* b = &solution.radiosity[p * solution.bands];
+        double l = luminance(b, solution.bands) / pi;
+        double emitted = luminance(&patches.emission[p * solution.bands], solution.bands) / pi;
+        if (l > 0 && emitted < l / 2)
+            sum += patches.area[p] * std::log(l), area += patches.area[p];
+    }
+    return area > 0 ? std::exp(sum / area) : 1;
 }
 
 double film(double light) {

@@ -10,6 +10,13 @@ namespace parallux {
 /// Luminance of Rec. 709 for three bands, else the mean of the bands.
 double luminance(const float* values, std::uint32_t bands);
 
+/// What exposure brings to: the linear value of middle grey.
+inline constexpr double middle_grey = 0.18;
+
+/// Log-mean radiance of the patches that mostly reflect, by area: how bright a sample is beside the
+/// rest. 1 where nothing is lit.
+double usual_luminance(const Patches& patches, const Solution& solution);
+
 /// The factor that brings a picture to the screen: the log-mean of what is lit, neither emitter,
 /// sky nor black, to middle grey, then `exposure` stops. 1 where nothing is lit.
 double exposure_factor(const Picture& picture, const PictureSettings& settings);

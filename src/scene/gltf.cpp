@@ -150,6 +150,8 @@ void GltfReader::read_primitive(const JsonView& primitive, const glm::dmat4& wor
         mesh.uv0 = read_uv(attributes, *material.uv0, mesh.positions.size());
     if (material.uv1)
         mesh.uv1 = read_uv(attributes, *material.uv1, mesh.positions.size());
+    if (builder_.settings().lightmap_uv)
+        mesh.lightmap_uv = read_uv(attributes, {.set = 1}, mesh.positions.size());
     mesh.colours = read_colours(attributes, mesh.positions.size());
     builder_.add(mesh);
 }

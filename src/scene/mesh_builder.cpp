@@ -68,6 +68,8 @@ bool affine(const std::vector<V>& values, const std::array<std::uint32_t, 3>& pq
     return near(values[srq[2]], q) && near(values[srq[1]], r) && near(values[srq[0]], q + r - p);
 }
 
+const std::array<glm::vec2, 3> no_lightmap_uv = {glm::vec2(NAN), glm::vec2(NAN), glm::vec2(NAN)};
+
 std::array<std::uint32_t, 3> rotated(const std::array<std::uint32_t, 3>& a, std::size_t first) {
     return {a[first], a[(first + 1) % 3], a[(first + 2) % 3]};
 }
@@ -180,7 +182,7 @@ void SceneBuilder::add(const Mesh& mesh) {
             [&](const MeshTriangle& a, int apex, const MeshTriangle& b, int other_apex) {
                 auto pqr = rotated(a.vertex, apex), srq = rotated(b.vertex, other_apex);
                 return affine(mesh.uv0, pqr, srq) && affine(mesh.uv1, pqr, srq) &&
-                       affine(mesh.colours, pqr, srq);
+                       affine(mesh.lightmap_uv, pqr, srq) && affine(mesh.colours, pqr, srq);
             });
     scene_.surfaces.reserve(scene_.surfaces.size() + triangles.size() / 2);
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
@@ -199,6 +201,13 @@ void SceneBuilder::add_pair(const Mesh& mesh, const MeshTriangle& triangle, cons
     }
     surface.material = mesh.material;
     surface.object = mesh.object;
+    if (settings_.lightmap_uv) {
+        scene_.lightmap_uv.resize(scene_.surfaces.size(), no_lightmap_uv);
+        scene_.lightmap_uv.push_back(
+            mesh.lightmap_uv.empty()
+                ? no_lightmap_uv
+                : pick(mesh.lightmap_uv, rotated(triangle.vertex, partner.apex)));
+    }
     if (mesh.uv0.empty() && mesh.uv1.empty() && mesh.colours.empty())
         return store(surface, nullptr);
     SurfaceAttributes attributes = attributes_at(mesh, rotated(triangle.vertex, partner.apex));

@@ -19,6 +19,7 @@ struct Mesh {
     std::vector<glm::dvec3> positions;
     std::vector<std::uint32_t> indices;  ///< three a triangle; checked by whoever fills them
     std::vector<glm::vec2> uv0, uv1;     ///< empty, or one a position
+    std::vector<glm::vec2> lightmap_uv;  ///< empty, or one a position
     std::vector<glm::vec3> colours;      ///< empty, or one a position
     std::uint32_t material = 0;
     std::uint32_t object = 0;

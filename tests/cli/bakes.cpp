@@ -1,0 +1,104 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <filesystem>
+
+#include "cli/run.h"
+
+// Bakes from the command line. Cases name the planted errors that were seen to fail them.
+
+namespace {
+
+std::vector<std::string> solve(const Workplace& place, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"solve",     place.scene(), "--patches", "60",
+                                          "--bundles", "64",          "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+}  // namespace
+
+TEST_CASE("equal runs leave equal bakes, whatever the threads") {
+    Workplace place;
+    std::vector<std::string> names = {"b.glb", "b.gltf", "b.ply", "map.exr", "map.glb"};
+    std::vector<std::string> first;
+    for (std::string threads : {"1", "3"}) {
+        Outcome outcome =
+            run(place, solve(place, {"--threads", threads, "--bake", place / "b.glb", "--bake",
+                                     place / "b.gltf", "--bake", place / "b.ply", "--lightmap",
+                                     place / "map.exr"}));
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.code == 0);
+        CHECK(outcome.out + outcome.err == "");
+        CHECK(place.files() == names);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            std::string bytes = read_file(place / names[i]);
+            CHECK(bytes.size() > 100);
+            if (first.size() < names.size())
+                first.push_back(bytes);
+            else
+                CHECK(bytes == first[i]);
+        }
+    }
+}
+
+// Planted: the lightmap's mesh not among the outputs that are checked before the solve.
+TEST_CASE("bakes that cannot be written are refused before the solve with code 4") {
+    Workplace place;
+    write_file(place / "file", "");
+    std::filesystem::create_directory(place / "folder.glb");
+    std::filesystem::create_directory(place / "map.glb");
+    std::vector<std::array<std::string, 3>> cases = {
+        {"--bake", place / "missing/b.glb", place / "missing/b.glb"},
+        {"--bake", place / "file/b.ply", place / "file/b.ply"},
+        {"--bake", place / "folder.glb", place / "folder.glb"},
+        {"--lightmap", place / "missing/m.exr", place / "missing/m.exr"},
+        {"--lightmap", place / "map.exr", place / "map.glb"}};
+    for (const auto& [option, target, named] : cases) {
+        Outcome outcome =
+            run(place, {"solve", place.scene(), "--bundles", "100000000", option, target});
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 4);
+        CHECK(outcome.one_line(named));
+    }
+    CHECK(place.files() == std::vector<std::string>{"file", "folder.glb", "map.glb"});
+}
+
+TEST_CASE("an older bake stays whole when a run fails") {
+    Workplace place;
+    for (std::string name : {"b.glb", "m.exr", "m.glb"})
+        write_file(place / name, "older");
+    auto outputs = [&](const std::string& limit) {
+        return solve(place, {"--bake", place / "b.glb", "--lightmap", place / "m.exr",
+                             "--max-memory", limit});
+    };
+    CHECK(run(place, outputs("1K")).code == 5);
+    for (std::string name : {"b.glb", "m.exr", "m.glb"})
+        CHECK(read_file(place / name) == "older");
+    CHECK(run(place, outputs("4G")).code == 0);
+    for (std::string name : {"b.glb", "m.exr", "m.glb"})
+        CHECK(read_file(place / name) != "older");
+}
+
+// Planted: the lightmap's mesh not among the outputs.
+TEST_CASE("bake options that make no sense are refused with code 2") {
+    Workplace place;
+    for (std::vector<std::string> options :
+         {std::vector<std::string>{"--bake", "b.obj"},
+          {"--bake", place / "b.glb", "--quantity", "lumen"},
+          {"--bake", place / "b.glb", "--bake-mesh", "fine"},
+          {"--bake", place / "m.glb", "--lightmap", place / "m.exr"},
+          {"--lightmap", place / "m.png"},
+          {"--lightmap", place / "m.exr", "--lightmap-size", "3"},
+          {"--lightmap", place / "m.exr", "--unlit"},
+          {"--quantity", "irradiance"},
+          {"--flat"},
+          {"--exposure", "1", "--bake", place / "b.glb"}}) {
+        Outcome outcome = run(place, solve(place, options));
+        CAPTURE(options[0]);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.one_line(""));
+    }
+    CHECK(place.files().empty());
+}
