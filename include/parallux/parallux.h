@@ -2,6 +2,7 @@
 
 /// \file Everything a user of the library needs, in the order of the flow.
 #include "parallux/error.h"
+#include "parallux/factors.h"
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/picture.h"
