@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "lines/fill_surface.h"
+#include "lines/hit_layers.h"
+#include "lines/painter.h"
 #include "lines/plane_sides.h"
 #include "lines/rectangle.h"
 #include "parallel.h"
@@ -117,8 +119,10 @@ void Projector::project(const Bundle& bundle, Projection& projection, unsigned t
     projection.top = first_line(extent.top);
     projection.columns = std::max(0, first_line(extent.right) - projection.left);
     projection.rows = std::max(0, first_line(extent.bottom) - projection.top);
-    // Surfaces that are painted cover many lines: wide tiles cut them less.
-    projection.tile_columns = sides_ ? 128 : 64;
+    // Surfaces that are painted cover many lines: wide tiles cut them less. Where a tile may hold
+    // too many to be painted, it must not be wider than layers of hits.
+    projection.tile_columns =
+        scene_.surfaces.size() <= BlockLists::most_views ? 128 : HitLayers::side;
     projection.tile_rows = most_tile_rows;
     projection.tiles_x =
         (projection.columns + projection.tile_columns - 1) / projection.tile_columns;

@@ -153,6 +153,21 @@ TEST_CASE("meshes have the very pairs of the ordered lists") {
         }
 }
 
+TEST_CASE("scenes just too large to be painted tile by tile are met in the order of the lists") {
+    // 97 to 256 surfaces have an order by planes, but a tile of many has layers. Failed (seen)
+    // while such tiles were 128 lines wide, twice as wide as the layers.
+    for (std::uint32_t rings : {5u, 6u, 7u, 8u})
+        for (double lines : {60.0, 300.0}) {
+            Scene scene;
+            scene.bands = 1;
+            add_ball(scene, {0, 0, 0}, 1, rings, grey(0.5, 0, true));
+            add_ball(scene, {0, 0, 0}, 0.5, 4, grey(0.5));
+            std::size_t pairs = 0;
+            compare(scene, lines, pairs);
+            CHECK(pairs > 100);
+        }
+}
+
 TEST_CASE("small solids on a floor are met in the order of the lists") {
     // Coincident faces among more surfaces than are painted.
     Scene scene = room(grey(0.5), 4);
