@@ -15,16 +15,17 @@ Outcome factors(const Workplace& place, std::vector<std::string> more) {
 
 }  // namespace
 
-TEST_CASE("factors writes the matrix, the areas, the sky and a report that says how good they are") {
+TEST_CASE(
+    "factors writes the matrix, the areas, the sky and a report that says how good they are") {
     Workplace place;
-    const Outcome outcome =
-        factors(place, {"-o", place / "f.mtx", "--sky", place / "sky.csv", "--stats",
-                        place / "f.json", "--sky-parts", "tregenza", "--patches", "100"});
+    const Outcome outcome = factors(
+        place, {"-o", place / "f.mtx", "--sky", place / "sky.csv", "--stats", place / "f.json",
+                "--sky-parts", "tregenza", "--patches", "100", "--quiet"});
     CHECK(outcome.code == 0);
     CHECK(outcome.err == "");
-    CHECK(place.files() ==
-          std::vector<std::string>{"f.areas.csv", "f.json", "f.mtx", "sky.csv"});
-    CHECK(read_file(place / "f.mtx").starts_with("%%MatrixMarket matrix coordinate real symmetric"));
+    CHECK(place.files() == std::vector<std::string>{"f.areas.csv", "f.json", "f.mtx", "sky.csv"});
+    CHECK(
+        read_file(place / "f.mtx").starts_with("%%MatrixMarket matrix coordinate real symmetric"));
     CHECK(read_file(place / "sky.csv").starts_with("node,sky,stderr_sky,ground,backs,sky_1"));
     const auto stats = nlohmann::json::parse(read_file(place / "f.json"));
     CHECK(stats["row_sums"]["largest_deviation"] < 1e-12);

@@ -122,7 +122,8 @@ TEST_CASE("parts of the sky as a level plate sees them") {
             double sum = 0;
             for (std::uint32_t part = 0; part < of_row[row / split] * split; ++part)
                 sum += outside(factors, 0, k++);
-            CHECK(std::fabs(sum - exact) < 0.03 * exact);
+            // Rows hold some 200 to 1000 of the directions.
+            CHECK(std::fabs(sum - exact) < 0.1 * exact);
         }
         const double low = std::sin(7 * split * step);
         CHECK(k == count - 1);
