@@ -17,7 +17,7 @@ struct Answer {
     std::vector<double> factor;
     std::vector<double> sky;
     std::vector<double> net;
-    double seconds = 0;  ///< all of it
+    double seconds = 0;  ///< of the processor, all of it
 };
 
 /// Our bundles, counted, closed and reciprocal; then the reflections.

@@ -3,7 +3,9 @@
 #include "view_factors/scenes.h"
 #include "view_factors/sky_parts.h"
 
-// Factors from counted lines against closed forms: within the error bars, and 0.1 %.
+// Factors from counted lines against closed forms: within the error bars, and 0.1 %. Planted, and
+// seen to fail: lines that come in not counted as leaving the other way, backs not counted, lines
+// from a node to itself counted once.
 
 using namespace parallux;
 using namespace parallux::test;

@@ -8,7 +8,8 @@
 #include "view_factors/sparse_rows.h"
 
 // What holds whatever the noise: rows with their outside are 1, exchange is symmetric to the bit,
-// and no number of threads changes a byte.
+// and no number of threads changes a byte. Planted, and seen to fail: a row's own factor twice in
+// place of both; nothing filled up where scaling cannot close; n_ii counted once.
 
 using namespace parallux;
 using namespace parallux::test;
