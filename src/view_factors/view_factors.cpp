@@ -80,12 +80,15 @@ private:
         }
     }
 
-    // What a sixteenth of the first group has met tells what the others will.
+    // What a sixteenth of the first group has met tells what all will; twice as many tell it
+    // better.
     void look_at_memory() {
         memory_.check_tables(counts_);
-        if (result_.predicted_memory == 0 && 16 * result_.bundles >= a_group_)
-            result_.predicted_memory = memory_.check_pairs(
-                counts_.pairs(), static_cast<double>(result_.bundles), static_cast<double>(all_));
+        if (result_.bundles > a_group_ || 16 * result_.bundles < look_ * a_group_)
+            return;
+        result_.predicted_memory = memory_.check_pairs(
+            counts_.pairs(), static_cast<double>(result_.bundles), static_cast<double>(all_));
+        look_ *= 2;
     }
 
     void report() {
@@ -105,7 +108,7 @@ private:
     const FactorSettings& settings_;
     const ProgressCallback& progress_;
     Factors& result_;
-    std::uint64_t a_group_, all_ = 0;
+    std::uint64_t a_group_, all_ = 0, look_ = 1;
     Clock::time_point start_ = Clock::now();
 };
 
