@@ -1,5 +1,6 @@
 #include <functional>
 
+#include "cli/factors.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
@@ -72,6 +73,8 @@ int run(const Options& options) {
             return 0;
         case Command::solve:
             return solve_scene(options.solve);
+        case Command::factors:
+            return find_factors(options.factors);
         case Command::compare:
             return compare(options.compare);
         case Command::print:

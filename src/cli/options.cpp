@@ -410,8 +410,7 @@ Options parse_options(int argc, const char* const* argv) {
     auto* info = add_info(app, options.info);
     auto* solve = add_solve(app, options.solve);
     add_compare(app, options.compare);
-    app.add_subcommand("factors")->group("")->allow_extras()->callback(
-        [] { not_available("factors"); });
+    auto* factors = add_factors(app, options.factors);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForVersion& version) {
@@ -423,16 +422,20 @@ Options parse_options(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         auto chosen = app.get_subcommands();
         if (chosen.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
-            throw Error(Fault::usage, "expected info, solve or compare; try parallux --help");
+            throw Error(Fault::usage,
+                        "expected info, solve, factors or compare; try parallux --help");
         throw Error(Fault::usage, std::string(error.what()) + "; try parallux " +
                                       (chosen.empty() ? "" : chosen[0]->get_name() + " ") +
                                       "--help");
     }
-    options.command = info->parsed()    ? Command::info
-                      : solve->parsed() ? Command::solve
-                                        : Command::compare;
+    options.command = info->parsed()      ? Command::info
+                      : solve->parsed()   ? Command::solve
+                      : factors->parsed() ? Command::factors
+                                          : Command::compare;
     if (options.command == Command::solve)
         settle(options.solve);
+    if (options.command == Command::factors)
+        settle(options.factors);
     for (double* length : {&options.info.patches.size, &options.info.solve.sphere_radius})
         *length *= options.info.load.scale;
     return options;

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/factors_options.h"
 #include "parallux/parallux.h"
 
 // What the user typed, checked as far as it can be without the scene.
 
 namespace parallux {
 
-enum class Command { print, info, solve, compare };
+enum class Command { print, info, solve, compare, factors };
 enum class ProgressMode { automatic, on, off, json };
 
 struct InfoOptions {
@@ -54,6 +55,7 @@ struct Options {
     InfoOptions info;
     SolveOptions solve;
     CompareOptions compare;
+    FactorsOptions factors;
 };
 
 /// Reads the command line. Lengths are scaled to metres. Throws Fault::usage naming the option and

@@ -157,7 +157,7 @@ TEST_CASE("scenes just too large to be painted tile by tile are met in the order
     // 97 to 256 surfaces have an order by planes, but a tile of many has layers. Failed (seen)
     // while such tiles were 128 lines wide, twice as wide as the layers.
     for (std::uint32_t rings : {5u, 6u, 7u, 8u})
-        for (double lines : {60.0, 300.0}) {
+        for (double lines : {100.0, 300.0}) {
             Scene scene;
             scene.bands = 1;
             add_ball(scene, {0, 0, 0}, 1, rings, grey(0.5, 0, true));

@@ -1,0 +1,121 @@
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "factors/judge.h"
+#include "output/output_file.h"
+#include "parallux/error.h"
+
+// View factors and net short wave of an urban scene: bundles against local rays and the solver, on
+// one thread, each against a long run of bundles with another seed.
+
+using namespace parallux;
+using namespace parallux::factor_bench;
+
+namespace {
+
+struct Options {
+    std::string scene, json;
+    std::vector<std::uint64_t> bundles{64, 256, 1024, 4096}, solve{64, 256, 1024, 4096};
+    std::vector<std::uint32_t> rays{16, 64, 256, 1024};
+    std::uint64_t reference = 32768;
+    bool tiny = false;
+};
+
+// A court of walls on a floor, for a try-out without files.
+Scene court() {
+    Scene scene;
+    scene.bands = 1;
+    scene.materials.emplace_back();
+    scene.materials[0].reflectance = Spectrum::constant(0.5f);
+    scene.objects = {"court"};
+    constexpr std::uint32_t n = 6;
+    auto add = [&](glm::dvec3 origin, glm::dvec3 u, glm::dvec3 v) {
+        const auto first = static_cast<std::uint32_t>(scene.positions.size());
+        for (std::uint32_t y = 0; y <= n; ++y)
+            for (std::uint32_t x = 0; x <= n; ++x)
+                scene.positions.push_back(origin + u * (double(x) / n) + v * (double(y) / n));
+        for (std::uint32_t y = 0; y < n; ++y)
+            for (std::uint32_t x = 0; x < n; ++x) {
+                const std::uint32_t a = first + y * (n + 1) + x, b = a + n + 1;
+                Surface surface;
+                surface.corner = {a, a + 1, b + 1, none};
+                scene.surfaces.push_back(surface);
+                surface.corner = {a, b + 1, b, none};
+                scene.surfaces.push_back(surface);
+            }
+    };
+    add({0, 0, 0}, {4, 0, 0}, {0, 3, 0});
+    add({0, 0, 0}, {0, 3, 0}, {0, 0, 2});
+    add({4, 0, 0}, {0, 0, 2}, {0, 3, 0});
+    add({0, 3, 0}, {4, 0, 0}, {0, 0, 2});
+    return scene;
+}
+
+int run(const Options& options) {
+    if (!options.json.empty())
+        check_writable(options.json);
+    if (!options.tiny && !std::filesystem::exists(options.scene)) {
+        std::printf("%s is not here; nothing to measure\n", options.scene.c_str());
+        return 0;
+    }
+    LoadSettings load;
+    load.keep_triangles = true;
+    const Scene scene = options.tiny ? court() : load_scene(options.scene, load);
+    PatchSettings facets;
+    facets.size = 1e15;
+    facets.clusters = false;
+    const Patches patches = make_patches(scene, facets);
+    const std::string name =
+        options.tiny ? "court" : std::filesystem::path(options.scene).parent_path().filename();
+    const Answer reference = by_bundles(scene, patches, options.reference, 1000, 0);
+    std::vector<Row> rows;
+    auto take = [&](const std::string& method, std::uint64_t effort, const Answer& answer) {
+        rows.push_back(judge(name, method, effort, patches, answer, reference));
+        print_row(rows.back());
+    };
+    print_heading();
+    for (std::uint64_t bundles : options.bundles)
+        take("bundles", bundles, by_bundles(scene, patches, bundles, 1, 1));
+    for (std::uint32_t rays : options.rays)
+        take("rays", rays, by_rays(scene, patches, rays, 1));
+    for (std::uint64_t bundles : options.solve)
+        take("solve", bundles, by_solve(scene, patches, bundles, 1));
+    if (!options.json.empty())
+        write_rows(options.json, rows);
+    // All three must come to one answer.
+    bool good = true;
+    for (const Row& row : rows)
+        good &= !options.tiny || row.net_l2 < 0.02;
+    return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"View factors: bundles, local rays, and the solver"};
+    Options options;
+    options.scene = std::string(PARALLUX_SHARED_SCENES) + "/urban-udales-949/geom.949.STL";
+    app.add_option("--scene", options.scene, "A scene of triangles");
+    app.add_option("--json", options.json, "Where to write the rows");
+    app.add_option("--bundles", options.bundles, "Lengths of bundles")->delimiter(',');
+    app.add_option("--rays", options.rays, "Rays a facet")->delimiter(',');
+    app.add_option("--solve", options.solve, "Lengths of the solver")->delimiter(',');
+    app.add_option("--reference", options.reference, "Bundles of the reference");
+    app.add_flag("--tiny", options.tiny, "A court; exit code 1 when the methods do not agree");
+    CLI11_PARSE(app, argc, argv);
+    if (options.tiny) {
+        options.bundles = options.solve = {2048};
+        options.rays = {1024};
+        options.reference = 8192;
+    }
+    try {
+        return run(options);
+    } catch (const Error& error) {
+        std::fprintf(stderr, "factors: %s\n", error.what());
+        return static_cast<int>(error.fault());
+    }
+}

@@ -1,0 +1,122 @@
+#include "cli/factors.h"
+
+#include <functional>
+#include <iomanip>
+#include <sstream>
+
+#include "cli/interrupt.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "cli/terminal.h"
+#include "output/output_file.h"
+#include "parallux/error.h"
+
+namespace parallux {
+
+namespace {
+
+std::vector<std::filesystem::path> files_of(const FactorsOptions& options) {
+    std::vector<std::filesystem::path> files;
+    for (const std::filesystem::path& file :
+         {options.matrix, options.areas(), options.sky, options.stats})
+        if (!file.empty())
+            files.push_back(file);
+    return files;
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    return (std::filesystem::equivalent(a, b, error) && !error) ||
+           std::filesystem::absolute(a).lexically_normal() ==
+               std::filesystem::absolute(b).lexically_normal();
+}
+
+// Before anything is computed: all can be written, none twice, none over the scene.
+void check_files(const FactorsOptions& options) {
+    const std::vector<std::filesystem::path> files = files_of(options);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (same_file(files[i], options.scene))
+            throw Error(Fault::usage,
+                        files[i].string() + ": is the scene itself; choose another output name");
+        for (std::size_t j = 0; j < i; ++j)
+            if (same_file(files[i], files[j]))
+                throw Error(Fault::usage,
+                            files[i].string() + ": is named for two outputs; choose another name");
+    }
+    for (const std::filesystem::path& file : files) {
+        WritingFile guard;
+        check_writable(file);
+    }
+}
+
+void write_files(const FactorsOptions& options, const Scene& scene, const Patches& patches,
+                 const Factors& factors, FactorRun& run) {
+    const double before = seconds_since_start();
+    auto write = [&](const std::filesystem::path& file, auto&& writer) {
+        if (file.empty())
+            return;
+        WritingFile guard;
+        writer(file);
+        run.bytes += std::filesystem::file_size(file);
+    };
+    write(options.matrix, [&](auto& f) { write_factors(f, factors, options.values); });
+    write(options.areas(), [&](auto& f) { write_factor_areas(f, factors); });
+    write(options.sky, [&](auto& f) { write_sky_factors(f, factors); });
+    run.total_seconds = seconds_since_start();
+    run.output_seconds = run.total_seconds - before;
+    write(options.stats,
+          [&](auto& f) { write_factor_stats(f, scene, patches, options.factors, factors, run); });
+}
+
+std::string summary(const FactorsOptions& options, const Factors& factors, const FactorRun& run) {
+    const FactorCheck check = check_factors(factors);
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << "rows     " << factors.nodes.size() << ", " << factors.column.size() << " entries\n";
+    text << "lines    " << factors.counts.lines << " in " << factors.bundles << " bundles\n"
+         << std::setprecision(3);
+    text << "closure  rows and outside come to 1 within " << check.row_deviation
+         << "; reciprocal within " << check.reciprocity << " m²\n";
+    if (!factors.sky_error.empty())
+        text << "error    " << factors.rms_factor << " RMS of a row's factors, " << factors.rms_sky
+             << " of its sky\n";
+    text << "leaks    " << factors.leaks << '\n';
+    text << "memory   " << (factors.predicted_memory >> 20) << " MiB predicted\n";
+    text << "time     " << std::fixed << std::setprecision(2) << run.total_seconds << " s\n";
+    for (const std::filesystem::path& file : files_of(options))
+        text << "wrote    " << printable(file.string()) << '\n';
+    if (factors.partial)
+        text << "partial  stopped before all lines were done\n";
+    return text.str();
+}
+
+}  // namespace
+
+int find_factors(const FactorsOptions& options) {
+    check_files(options);
+    FactorRun run;
+    const Scene scene = load_scene(options.scene, options.load);
+    run.load_seconds = seconds_since_start();
+    const Patches patches = make_patches(scene, options.patches);
+    run.patches_seconds = seconds_since_start() - run.load_seconds;
+
+    keep_results();
+    ProgressReport report(options.quiet ? ProgressMode::off : ProgressMode::automatic,
+                          options.quiet);
+    const Factors factors = view_factors(scene, patches, options.factors, std::ref(report));
+    report.end();
+
+    write_files(options, scene, patches, factors, run);
+    if (!options.quiet) {
+        print(summary(options, factors, run));
+        for (const std::vector<std::string>& warnings : {scene.warnings, factors.warnings})
+            for (const std::string& warning : warnings)
+                complain("warning: " + warning);
+    }
+    if (!interrupted())
+        return 0;
+    complain("parallux: interrupted; the outputs hold what was done until then");
+    return exit_interrupted;
+}
+
+}  // namespace parallux

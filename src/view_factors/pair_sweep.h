@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "parallux/factors.h"
+#include "view_factors/nodes.h"
+#include "view_factors/pair_counts.h"
+#include "view_factors/sky_parts.h"
+
+namespace parallux {
+
+/// Sends line bundles through the scene and counts which nodes face each other on them. Keeps
+/// references to all.
+class PairSweep {
+public:
+    PairSweep(const Scene& scene, const Patches& patches, const NodeMap& nodes, const SkyDome& dome,
+              unsigned threads, PairCounts& counts);
+    ~PairSweep();
+
+    /// Follows bundles first … first + count - 1 of a lattice. All is taken up at its end.
+    void bundles(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count);
+    /// Bundles that are worth to be followed at once.
+    std::uint32_t at_once() const;
+
+    const LineCounts& line_counts() const { return line_counts_; }
+
+private:
+    struct Buffers;
+    void follow_tile(const Projection& projection, std::size_t tile, unsigned worker);
+    void take_up();
+
+    const Scene& scene_;
+    const NodeMap& nodes_;
+    const SkyDome& dome_;
+    unsigned threads_;
+    PairCounts& counts_;
+    Projector projector_;
+    std::vector<Buffers> buffers_;
+    std::vector<Projection> projections_;
+    double entries_a_tile_ = 0;
+    LineCounts line_counts_;
+};
+
+}  // namespace parallux

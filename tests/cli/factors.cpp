@@ -1,0 +1,61 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run.h"
+
+// `parallux factors` as a user types it.
+
+namespace {
+
+Outcome factors(const Workplace& place, std::vector<std::string> more) {
+    more.insert(more.begin(), {"factors", place.scene(), "--bundles", "64"});
+    return run(place, more);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "factors writes the matrix, the areas, the sky and a report that says how good they are") {
+    Workplace place;
+    const Outcome outcome = factors(
+        place, {"-o", place / "f.mtx", "--sky", place / "sky.csv", "--stats", place / "f.json",
+                "--sky-parts", "tregenza", "--patches", "100", "--quiet"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err == "");
+    CHECK(place.files() == std::vector<std::string>{"f.areas.csv", "f.json", "f.mtx", "sky.csv"});
+    CHECK(
+        read_file(place / "f.mtx").starts_with("%%MatrixMarket matrix coordinate real symmetric"));
+    CHECK(read_file(place / "sky.csv").starts_with("node,sky,stderr_sky,ground,backs,sky_1"));
+    const auto stats = nlohmann::json::parse(read_file(place / "f.json"));
+    CHECK(stats["row_sums"]["largest_deviation"] < 1e-12);
+    CHECK(stats["reciprocity"]["largest_deviation_m2"] == 0);
+    CHECK(stats["unresolved"]["leaks"] == 0);
+    CHECK(stats["error"]["rms_factor"] > 0);
+    CHECK(stats["predicted_memory_bytes"] > 0);
+}
+
+TEST_CASE("factors says no with one line") {
+    Workplace place;
+    struct Case {
+        std::vector<std::string> arguments;
+        int code;
+        std::string named;
+    };
+    for (const Case& c : std::vector<Case>{
+             {{}, 2, "factors needs -o"},
+             {{"-o", place / "f.csv"}, 2, "-o"},
+             {{"-o", place / "f.mtx", "--sky-parts", "12"}, 2, "--sky-parts 12"},
+             {{"-o", place / "f.mtx", "--between", "walls"}, 2, "--between walls"},
+             {{"-o", place / "f.mtx", "--threshold", "2"}, 2, "--threshold 2"},
+             {{"-o", place / "f.mtx", "--facets", "--patches", "9"}, 2, "--facets"},
+             {{"-o", place / "f.mtx", "--sky", place / "f.areas.csv"}, 2, "two outputs"},
+             {{"-o", place / "none/f.mtx"}, 4, "none"},
+             {{"-o", place / "f.mtx", "--max-memory", "10M"}, 5, "MiB"}}) {
+        const Outcome outcome = factors(place, c.arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == c.code);
+        CHECK(outcome.one_line(c.named));
+        CHECK(place.files().empty());
+    }
+}
