@@ -160,12 +160,19 @@ TEST_CASE("an exact first shot counts what is hidden, and keeps every quantum") 
     Solution exact = solve(scene, patches, settings);
     CHECK(exact.energy.residual[0] == 0);
     CHECK(exact.energy.escaped[0] == 0);
+    // A shot of so short a run draws a few points a cell: the mean of 64 is to be right.
+    std::vector<double> mean(patches.count(), 0);
+    for (settings.seed = 1; settings.seed <= 64; ++settings.seed) {
+        const Solution one = solve(scene, patches, settings);
+        for (std::size_t k = 0; k < patches.count(); ++k)
+            mean[k] += one.irradiance[k] / 64;
+    }
     settings.first_shot = FirstShot::rays;
     settings.first_shot_rays = 4'000'000;
     Solution rays = solve(scene, patches, settings);
     double wrong = 0, all = 0;
     for (std::size_t k = 0; k < patches.count(); ++k) {
-        wrong += patches.area[k] * std::pow(exact.irradiance[k] - rays.irradiance[k], 2);
+        wrong += patches.area[k] * std::pow(mean[k] - rays.irradiance[k], 2);
         all += patches.area[k] * std::pow(rays.irradiance[k], 2);
     }
     MESSAGE("relative RMS of exact against rays: ", std::sqrt(wrong / all));
