@@ -103,8 +103,8 @@ TEST_CASE("what hides nothing from a cell leaves its direct light without noise"
 }
 
 TEST_CASE("small bright patches are served by rays of their own, without bias") {
-    // Against particles, which know nothing of lines. Fails when they stay bright for the
-    // closing gather, and when their own shot is left out (planted).
+    // Against particles, which know nothing of lines. Fails when their own shot is left
+    // out (planted).
     const Scene scene = shaded_lamp();
     const Patches patches = make_patches(scene);
     SolveSettings settings;
