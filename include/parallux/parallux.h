@@ -5,9 +5,9 @@
 #include "parallux/error.h"
 <<<<<<< HEAD
 #include "parallux/lightmap.h"
-=======
+    =======
 #include "parallux/factors.h"
->>>>>>> factors
+    >>>>>>> factors
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/picture.h"
