@@ -3,11 +3,8 @@
 /// \file Everything a user of the library needs, in the order of the flow.
 #include "parallux/bake.h"
 #include "parallux/error.h"
-<<<<<<< HEAD
-#include "parallux/lightmap.h"
-    =======
 #include "parallux/factors.h"
-    >>>>>>> factors
+#include "parallux/lightmap.h"
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/picture.h"
