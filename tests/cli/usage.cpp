@@ -126,11 +126,6 @@ TEST_CASE("what is not there yet is refused, not ignored") {
         CHECK(contains(message, arguments[0]));
         CHECK(contains(message, "is not available in this version"));
     }
-<<<<<<< HEAD
-    CHECK(run(place, {"factors", place.scene(), "-o", "f.mtx"}).code == 2);
-=======
-    CHECK(run(place, {"solve", place.scene(), "--bake", "x.glb"}).code == 2);
->>>>>>> factors
 }
 
 // Planted: a loader's message passed on with the line breaks of a name in the scene.
