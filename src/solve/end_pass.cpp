@@ -60,9 +60,11 @@ void end_pass(const Run& run, const DirectLight& direct, TransferState& state, P
     auto finish = [&](std::size_t patch) {
         const std::uint32_t region = pass.leftover ? pass.leftover->region(patch) : 0;
         for (std::uint32_t band = 0; band < bands; ++band) {
-            double received = static_cast<double>(run.banks.received(patch, band));
-            if (pass.leftover && received > 0)
-                received += spread.even[region * bands + band] * patches.area[patch];
+            const std::int64_t quanta = run.banks.received(patch, band);
+            double received = static_cast<double>(quanta);
+            if (pass.leftover && pass.leftover->reached(patch, quanta, spread.fine))
+                received +=
+                    spread.to_come[region * std::size_t(bands) + band] * patches.area[patch];
             const double ambient = pass.ambient.empty() ? 0 : pass.ambient[band];
             pass.irradiance[patch * bands + band] = static_cast<float>(
                 spread.factor[band] * received * state.watts_per_quantum / patches.area[patch] +

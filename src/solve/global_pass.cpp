@@ -13,14 +13,15 @@ namespace {
 // Bundles whose emission is still unshot: how far the reflected light lags behind, in the band
 // where it lags most. Band totals are integers, so that this is the same on any number of threads.
 double lag(const TransferState& state, std::uint64_t done) {
-    double most = 0;
-    for (std::uint32_t band = 0; band < state.bands; ++band) {
-        double sent = static_cast<double>(state.emitted[band] + state.sky[band]);
-        double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
-        if (sent > 0)
-            most = std::max(most, (sent - finished) / sent * static_cast<double>(done));
-    }
-    return most;
+    return Leftover::held(state) * static_cast<double>(done);
+}
+
+// Of how many pairs one is kept: more, and of all bundles, where light lags so far behind that much
+// will be left over.
+std::uint64_t stride(const Plan& plan, const TransferState& state, std::uint64_t done) {
+    if (lag(state, done) > Leftover::much * static_cast<double>(plan.passing()))
+        return plan.keeping.stride;
+    return done < plan.keeping.first ? plan.keeping.first_stride : 0;
 }
 
 // How many bundles work from the next snapshot. A bounce takes about two batches: batches grow to
@@ -56,6 +57,7 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
     for (std::int64_t quanta : direct.unshot)
         planned.push_back(static_cast<double>(quanta) * plan.watts_per_quantum);
     result.leftover.emplace(run.patches, *run.regions, planned, plan.threads);
+    sweep.keep(result.leftover->ways);
     const std::uint64_t emitting = plan.passing() - plan.closing;
     // What the next batch's exits carry is set by the merge before it, in one walk over the
     // patches: its size goes by the light that the merge before that has seen.
@@ -70,7 +72,7 @@ PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state
         // Emission ends before the lines do.
         if (result.bundles == emitting)
             sweep.darken_sky();
-        sweep.count(result.bundles < Leftover::enough ? &*result.leftover : nullptr);
+        result.leftover->ways.keep_one_of(stride(plan, state, result.bundles));
         if (bundles) {
             sweep.bundles(lattice, result.bundles, batch);
         } else {

@@ -5,50 +5,54 @@
 
 #include "parallux/patches.h"
 #include "solve/regions.h"
+#include "solve/ways.h"
 #include "transfer/banks.h"
 
 namespace parallux {
 
-/// What would still be received if the lines went on. Unshot energy may sit where it never leaves
-/// (a lamp's inside, a cupboard), so that it must not be spread over the whole scene: lines are
-/// counted between some hundred regions, and the energy is followed over all its further bounces
-/// from region to region, in which it is even (aggregation, as of Markov chains: H. A. Simon and
-/// A. Ando, Aggregation of Variables in Dynamic Systems, Econometrica 29, 1961). Light that has
-/// bounced long is even where much is left over, and a closing gather smooths what is not.
+/// What would still be received if the lines went on. Unshot energy may sit where it hardly leaves
+/// (a lamp's inside, a cupboard, a gap above a lamp), so that it must not be spread over the scene:
+/// some lines are kept, and the energy is followed along them over all its further bounces, as
+/// M. Sbert's lines of 1993 solve a scene by counts, here with storage that does not grow with the
+/// square of the patches. Where little is left, between groups of patches, in which it is even;
+/// else from patch to patch. A closing gather smooths the noise of so few lines.
 class Leftover {
 public:
     /// `planned`: watts emitted in the whole run, a band. Keeps references to patches and regions.
     Leftover(const Patches& patches, const Regions& regions, std::vector<double> planned,
              unsigned threads);
 
-    /// Bundles enough to know the ways between regions by: what they lead is a small part.
-    static constexpr std::uint64_t enough = 32;
+    /// Of what was sent so far, the share that has neither been absorbed nor escaped, in the band
+    /// where it is largest.
+    static double held(const TransferState& state);
+    /// Above that share it is followed from patch to patch.
+    static constexpr double much = 1.0 / 8;
 
-    /// Counts the ways of some lines; each worker into a table of its own.
-    void count(const TilePairs& pairs, unsigned worker);
-
-    /// What is received over the whole run by a patch with R quanta of area A:
-    /// factor[band] · (R + R > 0 ? even[region · bands + band] · A : 0).
+    /// What is received over the whole run by a patch with R quanta of area A: factor[band] · R,
+    /// and where light can reach it factor[band] · to_come[region · bands + band] · A more.
     struct Spread {
-        std::vector<double> factor, even;
+        std::vector<double> factor, to_come;
+        bool fine = false;  ///< from patch to patch
     };
     /// `done`: the share of the planned emission that was to be sent.
     Spread spread(const TransferState& state, const Banks& banks, double done) const;
     std::uint32_t region(std::size_t patch) const { return regions_.of[patch]; }
+    /// What stands in the dark is not lit by what it is joined with.
+    bool reached(std::size_t patch, std::int64_t received, bool fine) const {
+        return received > 0 || (fine && regions_.sizes[regions_.of[patch]] == 1);
+    }
+
+    Ways ways;
 
 private:
     struct Sums;
-    Sums sums(const TransferState& state, const Banks& banks) const;
-    std::vector<double> follow(const std::vector<double>& ways, const Sums& sums,
-                               std::uint32_t band) const;
-    std::vector<double> ways() const;
+    Sums sums(const TransferState& state, const Banks& banks, bool fine) const;
+    Sums grouped(const Sums& regions) const;
 
     const Patches& patches_;
     const Regions& regions_;
     std::vector<double> planned_;
     unsigned threads_;
-    std::vector<std::vector<std::uint64_t>> counts_;  // a worker: from · (regions + 1) + to; the
-                                                      // last column is out of the scene
 };
 
 }  // namespace parallux

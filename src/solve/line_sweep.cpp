@@ -1,6 +1,7 @@
 #include "solve/line_sweep.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "parallel.h"
 #include "solve/pass.h"
@@ -51,10 +52,10 @@ void LineSweep::lines(std::uint64_t first, std::uint64_t count) {
                      trace_lines(*run_.rays, run_.scene, run_.patches, plan.sphere,
                                  run_.settings.seed, first + begin, end - begin, buffers.lists,
                                  lit ? &buffers.directions : nullptr);
-                     if (ways_) {
+                     if (ways_ && ways_->keeping()) {
                          buffers.pairs.clear();
                          append_pairs(buffers.lists, buffers.pairs);
-                         ways_->count(buffers.pairs, worker);
+                         ways_->keep(buffers.pairs, first + begin, worker);
                      }
                      buffers.sky.clear();
                      for (std::size_t k = 0; lit && k < buffers.directions.size(); ++k)
@@ -127,8 +128,9 @@ void LineSweep::each_tile(std::size_t tiles, Follow&& follow) {
 void LineSweep::follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
     Buffers& buffers = buffers_[worker];
     projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
-    if (ways_)
-        ways_->count(buffers.pairs, worker);
+    if (ways_ && ways_->keeping())
+        ways_->keep(buffers.pairs, std::bit_cast<std::uint64_t>(projection.bundle.offset_x),
+                    worker);
     SkyQuanta sky;
     if (sky_ > 0)
         sky = sky_quanta(run_.scene, sky_, projection.bundle.direction);

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "solve/leftover.h"
 #include "solve/run.h"
+#include "solve/ways.h"
 #include "transfer/partition.h"
 
 namespace parallux {
@@ -24,8 +24,8 @@ public:
     /// Traces independent lines first … first + count - 1 and follows them.
     void lines(std::uint64_t first, std::uint64_t count);
 
-    /// From now on lines are counted there too; null: no more.
-    void count(Leftover* ways) { ways_ = ways; }
+    /// From now on lines are shown to those as well.
+    void keep(Ways& ways) { ways_ = &ways; }
     void darken_sky() { sky_ = 0; }
 
 private:
@@ -42,7 +42,7 @@ private:
     const TransferState& state_;
     Direction direction_;
     double sky_;
-    Leftover* ways_ = nullptr;
+    Ways* ways_ = nullptr;
     std::vector<Buffers> buffers_;
     Projector projector_;
     std::optional<Partition> partition_;  // where the workers share a bank

@@ -9,8 +9,8 @@
 #include "parallux/error.h"
 #include "reference/matrix.h"
 #include "solve/emitters.h"
+#include "solve/keeping.h"
 #include "solve/plan_shots.h"
-#include "solve/regions.h"
 #include "transfer/banks.h"
 #include "transfer/partition.h"
 
@@ -63,13 +63,12 @@ struct Footprint {
         return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 8 + 8) +
                (all ? count * (100 + bands * 12) : 0);
     }
-    // What was sent, what exits carry, pairs on their way; regions and the workers' counts between
-    // them. A projection holds corners, and each surface in a tile or two.
+    // What was sent, what exits carry, pairs on their way, and those kept. A projection holds
+    // corners, and each surface in a tile or two.
     std::uint64_t pass() const {
         std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
-        return all_banks() + direct() + groups() + count * (bands * 8 + lanes(bands) * 4) + count +
-               threads * (Regions::most + 1) * Regions::most * sizeof(std::uint64_t) +
-               (banks < threads ? Partition::bytes(threads) : 0) +
+        return all_banks() + direct() + groups() + count * (bands * 8 + lanes(bands) * 4) +
+               keeping_bytes(count, bands) + (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }

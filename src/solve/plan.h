@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "parallux/solve.h"
+#include "solve/keeping.h"
 
 namespace parallux {
 
@@ -29,6 +30,7 @@ struct Plan {
     std::uint32_t batch = 1;         ///< 0: lines one after the other
     std::uint64_t gathering = 0;     ///< of the bundles: the last ones, the closing gather
     std::uint64_t closing = 0;       ///< of the others: the last ones, that carry no new emission
+    Keeping keeping;                 ///< of the pass's lines, for what is left over
     LineSphere sphere;
     double watts_per_quantum = 1;
     double highest_reflectance = 0;

@@ -181,6 +181,9 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
         plan.batch = suitable_batch(patches, plan);
     if (plan.batch > 0)
         limit_batch(disc / plan.cell, plan);
+    const double half_exits =
+        mean_area(patches) * static_cast<double>(patches.count()) / (4 * plan.cell);
+    plan.keeping = keeping_of(patches.count(), half_exits, plan.passing());
 }
 
 }  // namespace parallux

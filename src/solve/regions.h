@@ -7,17 +7,20 @@
 
 namespace parallux {
 
-/// The patches of a scene in some hundred regions: those of one object and way they face, in one of
-/// the cubes that the scene's bounds are cut into. What encloses light by itself (a lamp, a
-/// cupboard) and is small is a region of its own, inside apart from outside.
+/// The patches of a scene in so many regions that lines enough leave each. A patch that is large
+/// enough is a region of its own; the others are joined where they belong to one object and side,
+/// face one way and lie in one cube of a grid, as fine as the wanted number allows.
 struct Regions {
-    static constexpr std::uint32_t most = 255;
-
     std::uint32_t count = 0;
-    std::vector<std::uint8_t> of;  ///< one a patch
+    std::vector<std::uint32_t> of;     ///< one a patch
+    std::vector<std::uint32_t> sizes;  ///< patches of each
+    std::vector<std::uint32_t> group;  ///< of each: one of few groups, joined in the same manner
+    std::uint32_t groups = 0;
 };
 
-/// O(patches + surfaces).
-Regions make_regions(const Scene& scene, const Patches& patches);
+/// About `wanted` regions in `groups` groups, or fewer; more only where there are as many objects,
+/// sides and ways to face. O(n log n) in the patches.
+Regions make_regions(const Scene& scene, const Patches& patches, std::size_t wanted,
+                     std::size_t groups);
 
 }  // namespace parallux

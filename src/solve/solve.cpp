@@ -87,7 +87,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
-    const Regions regions = make_regions(scene, patches);
+    const Regions regions = make_regions(scene, patches, plan.keeping.regions, plan.keeping.groups);
     Team team(plan.threads);
     DirectLight direct;
     Estimate estimate(patches);
