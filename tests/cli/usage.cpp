@@ -122,8 +122,7 @@ TEST_CASE("what is not there yet is refused, not ignored") {
     for (std::vector<std::string> arguments : {std::vector<std::string>{"--bake", "x.glb"},
                                                {"--lightmap", "x.exr"},
                                                {"--checkpoint", "x"},
-                                               {"--resume", "x"},
-                                               {"--bands", "8"}}) {
+                                               {"--resume", "x"}}) {
         std::string message = refusal(arguments);
         CAPTURE(message);
         CHECK(contains(message, arguments[0]));
