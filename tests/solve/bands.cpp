@@ -43,7 +43,8 @@ Scene only(Scene scene, std::uint32_t band) {
 TEST_CASE("eight bands in one pass are eight runs of one band, but for their quanta") {
     // The lines are the same, and exact first shots too; what differs is how large a quantum is,
     // and so what is rounded. Of first shots by rays this would not hold: rays fall by the power of
-    // all bands. Fails (planted, seen) when a band takes its neighbour's reflectance in merge().
+    // all bands; nor of long runs, whose closing bundles and batches go by the slowest band.
+    // Fails (planted, seen) when the gather sends the reflectance of band 0 in all bands.
     const Scene scene = coloured_room();
     const Patches patches = make_patches(scene);
     for (Method method : {Method::bundles, Method::lines})
@@ -53,13 +54,14 @@ TEST_CASE("eight bands in one pass are eight runs of one band, but for their qua
             SolveSettings settings;
             settings.method = method;
             settings.first_shot = FirstShot::exact;
-            settings.bundles = 512;
+            settings.bundles = 24 * groups;  // few, so that as many close the pass for all bands
             settings.groups = groups;
-            settings.batch = 8;
+            settings.batch = 1;           // else shorter where one band lags
             settings.gather_share = 0.6;  // else by the highest reflectance of all bands
             const Solution all = solve(scene, patches, settings);
             for (std::uint32_t band = 0; band < bands; ++band) {
                 CAPTURE(band);
+                CAPTURE(groups);
                 const Scene single = only(scene, band);
                 const Solution one = solve(single, make_patches(single), settings);
                 CHECK(one.counts.lines == all.counts.lines);
@@ -71,8 +73,7 @@ TEST_CASE("eight bands in one pass are eight runs of one band, but for their qua
                     worst = std::max(worst, std::fabs(a - b));
                     mean += b / double(patches.count());
                 }
-                MESSAGE("band ", band, ": ", worst / mean);
-                CHECK(worst < 1e-4 * mean);
+                CHECK(worst < 2e-6 * mean);
                 CHECK(all.energy.residual[band] == 0);
             }
         }
