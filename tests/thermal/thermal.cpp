@@ -72,7 +72,11 @@ TEST_CASE("in a box of six temperatures the faces' net fluxes are the dense solu
                                     "all,,300\nmaterial,face 0,350\nmaterial,face 1,280\n"
                                     "surface,5,400\nmaterial,face 3,310\n",
                                     FluxUnit::surface, bundles(16384));
-    const Patches patches = make_patches(scene);
+    Patches patches = make_patches(scene);
+    const double kelvin[6] = {350, 280, 300, 310, 300, 400};
+    for (std::size_t patch = 0; patch < patches.count(); ++patch)
+        patches.emission[patch] = static_cast<float>((1 - double(patches.reflectance[patch])) *
+                                                     black_body(kelvin[patch / 16]));
     const Eigen::MatrixXd factors = exact_factors(scene, patches);
     const Eigen::VectorXd incoming = factors * exact_radiosity(factors, patches);
     double net[6] = {}, area[6] = {}, largest = 0, sum = 0, square = 0;
