@@ -56,6 +56,7 @@ Fault refusal(const std::string& text, std::uint32_t bands = 0) {
 // Planted, seen: values of one band put into the next; textures that go on multiplying.
 TEST_CASE("a table gives materials their values by name, others keep theirs") {
     Scene scene = painted();
+    scene.textures.push_back({"grey", 1, 1, {glm::vec3(0.5f)}});
     scene.materials[0].reflectance_texture = 0;
     scene.attributes.resize(6);
     for (SurfaceAttributes& a : scene.attributes)
