@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "cli/change_options.h"
 #include "cli/values.h"
 #include "vectors.h"
 
@@ -33,7 +34,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, const std::string& valu
 }
 
 void add_unavailable(CLI::App& app) {
-    for (std::string name : {"--checkpoint", "--resume", "--bands"})
+    for (std::string name : {"--checkpoint", "--resume"})
         app.add_option_function<std::vector<std::string>>(
                name, [name](const std::vector<std::string>&) { not_available(name); })
             ->expected(0, 1)
@@ -337,6 +338,7 @@ void settle(SolveOptions& o) {
     o.bake.flat = o.lightmap_settings.flat = o.picture.flat;
     if (o.quiet && o.progress == ProgressMode::automatic)
         o.progress = ProgressMode::off;
+    settle_changes(o);
     for (double* length : {&o.patches.size, &o.solve.line_spacing, &o.solve.sphere_radius})
         *length *= o.load.scale;
 }
@@ -372,8 +374,10 @@ CLI::App* add_info(CLI::App& app, InfoOptions& o) {
 CLI::App* add_solve(CLI::App& app, SolveOptions& o) {
     auto* solve = app.add_subcommand("solve", "Solve a scene's radiosity; give the outputs wanted");
     add_scene(*solve, o.scene, o.load);
+    add_changes(*solve, o);
     add_outputs(*solve, o);
     add_bakes(*solve, o);
+    add_measurements(*solve, o);
     add_patches(*solve, o.patches);
     add_method(*solve, o.solve);
     add_run(*solve, o);
@@ -395,7 +399,16 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& o) {
 std::vector<std::filesystem::path> SolveOptions::outputs() const {
     std::vector<std::filesystem::path> files = images;
     files.insert(files.end(), bakes.begin(), bakes.end());
-    for (const std::filesystem::path& file : {table, stats, lightmap, lightmap_mesh(lightmap)})
+    for (const std::filesystem::path& file :
+         {table, fluxes, sensor_table, stats, lightmap, lightmap_mesh(lightmap)})
+        if (!file.empty())
+            files.push_back(file);
+    return files;
+}
+
+std::vector<std::filesystem::path> SolveOptions::inputs() const {
+    std::vector<std::filesystem::path> files = {scene};
+    for (const std::filesystem::path& file : {changes.materials, changes.temperatures, sensors})
         if (!file.empty())
             files.push_back(file);
     return files;

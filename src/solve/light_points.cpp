@@ -25,9 +25,10 @@ double smooth_cone(const Light& light, double cosine) {
     return t * t;
 }
 
-// W/m² per unit of intensity that a light brings to a point of a surface facing `normal`.
-double arrives(const RayScene& rays, const Light& light, const glm::dvec3& point,
-               const glm::dvec3& normal, std::uint32_t surface, double far) {
+}  // namespace
+
+double light_arrives(const RayScene& rays, const Light& light, const glm::dvec3& point,
+                     const glm::dvec3& normal, std::uint32_t surface, double far) {
     if (light.kind == Light::Kind::directional) {
         double cosine = -glm::dot(normal, light.direction);
         if (cosine <= 0 || rays.blocked(point, point - far * light.direction, surface))
@@ -47,8 +48,6 @@ double arrives(const RayScene& rays, const Light& light, const glm::dvec3& point
         return 0;
     return strength * cosine / square;
 }
-
-}  // namespace
 
 void add_light_points(const Run& run, DirectLight& direct) {
     const Scene& scene = run.scene;
@@ -85,8 +84,8 @@ void add_light_points(const Run& run, DirectLight& direct) {
                             glm::dvec3 point = surface_point(scene, surface, cell.u0 + a * cell.du,
                                                              cell.v0 + b * cell.dv);
                             for (const Light& light : scene.lights) {
-                                double flux = arrives(*run.rays, light, point, normal,
-                                                      static_cast<std::uint32_t>(s), far) *
+                                double flux = light_arrives(*run.rays, light, point, normal,
+                                                            static_cast<std::uint32_t>(s), far) *
                                               cell_area / (points_a_side * points_a_side);
                                 for (std::uint32_t band = 0; flux > 0 && band < bands; ++band)
                                     watts[band] += flux * light.intensity[band];

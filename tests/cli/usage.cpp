@@ -120,7 +120,7 @@ TEST_CASE("nonsense is refused with code 2, naming option and value") {
 TEST_CASE("what is not there yet is refused, not ignored") {
     Workplace place;
     for (std::vector<std::string> arguments :
-         {std::vector<std::string>{"--checkpoint", "x"}, {"--resume", "x"}, {"--bands", "8"}}) {
+         {std::vector<std::string>{"--checkpoint", "x"}, {"--resume", "x"}}) {
         std::string message = refusal(arguments);
         CAPTURE(message);
         CHECK(contains(message, arguments[0]));
