@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "cli/sky_options.h"
 #include "cli/values.h"
 #include "vectors.h"
 
@@ -80,6 +81,16 @@ void add_scene(CLI::App& app, std::filesystem::path& scene, LoadSettings& load) 
             load.reflectance =
                 Spectrum::constant(static_cast<float>(parse_real("--reflectance", v, 0, 0.999)));
         })
+        ->group("Scene");
+    add(app, "--sky", "SKY",
+        "In place of the scene's: dark, uniform:L, overcast:L, clear:L (radiance, at the zenith, "
+        "W/(m² sr)), perez:D (diffuse horizontal W/m²), image:FILE; with :ALBEDO, as in "
+        "perez:120:0.2, ground that it and the sun light",
+        [&](auto& v) { parse_sky("--sky", v, load.sky); })
+        ->group("Scene");
+    add(app, "--sun", "H,AZ[,D]",
+        "In place of the scene's: elevation, azimuth from north by east (degrees), direct W/m² [0]",
+        [&](auto& v) { parse_sun("--sun", v, load.sky); })
         ->group("Scene");
 }
 
@@ -260,6 +271,7 @@ void settle(SolveOptions& o) {
     bool independent = o.solve.method == Method::lines || o.solve.method == Method::matrix;
     contradict(!independent && o.solve.sphere_radius > 0,
                "--sphere-radius needs --method lines or matrix");
+    settle_sky(o.load.sky);
     if (o.quiet && o.progress == ProgressMode::automatic)
         o.progress = ProgressMode::off;
     for (double* length : {&o.patches.size, &o.solve.line_spacing, &o.solve.sphere_radius})
@@ -356,6 +368,7 @@ Options parse_options(int argc, const char* const* argv) {
                                         : Command::compare;
     if (options.command == Command::solve)
         settle(options.solve);
+    settle_sky(options.info.load.sky);
     for (double* length : {&options.info.patches.size, &options.info.solve.sphere_radius})
         *length *= options.info.load.scale;
     return options;

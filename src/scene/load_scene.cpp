@@ -6,6 +6,7 @@
 #include "scene/input.h"
 #include "scene/loaders.h"
 #include "scene/obj.h"
+#include "scene/sky_models.h"
 
 namespace parallux {
 namespace {
@@ -86,6 +87,8 @@ Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings
         input_error(file, "",
                     "nothing with area in it (" + std::to_string(scene.triangles) +
                         " triangles); a scene needs surfaces");
+    if (auto wrong = put_sky(scene, settings.sky))
+        throw Error(Fault::usage, printable(file.string(), 400) + ": " + *wrong);
     if (scene.zero_area > 0)
         scene.warnings.push_back(std::to_string(scene.zero_area) + " of " +
                                  std::to_string(scene.triangles) +

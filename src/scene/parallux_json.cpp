@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "scene/input.h"
-#include "scene/textures.h"
 
 namespace parallux {
 namespace {
@@ -130,42 +129,6 @@ void ParalluxReader::read_lights() {
         if (auto range = json.find("range"))
             light.range = range->number(0, 1e15) * scale;
         scene_.lights.push_back(std::move(light));
-    }
-}
-
-void ParalluxReader::read_sky() {
-    Sky& sky = scene_.sky;
-    sky.up = up_;
-    auto json = root_.find("sky");
-    if (!json)
-        return;
-    json->only({"comment", "uniform", "gradient", "image", "scale", "north"});
-    if (json->has("uniform") + json->has("gradient") + json->has("image") != 1)
-        json->fail("must have one of uniform, gradient and image");
-    if (auto north = json->find("north"))
-        sky.north = direction(*north);
-    else if (std::abs(glm::dot(sky.north, up_)) > 0.999)
-        sky.north = {0, 0, -1};  // with y up
-    if (auto uniform = json->find("uniform")) {
-        sky.kind = Sky::Kind::uniform;
-        sky.zenith = sky.horizon = sky.ground = spectrum(*uniform, 0, 1e15);
-    } else if (auto gradient = json->find("gradient")) {
-        gradient->only({"comment", "zenith", "horizon", "ground"});
-        sky.kind = Sky::Kind::gradient;
-        sky.zenith = spectrum(gradient->at("zenith"), 0, 1e15);
-        sky.horizon = spectrum(gradient->at("horizon"), 0, 1e15);
-        if (auto ground = gradient->find("ground"))
-            sky.ground = spectrum(*ground, 0, 1e15);
-    } else {
-        JsonView image = json->at("image");
-        if (scene_.bands != 3)
-            image.fail("an image has three bands; give uniform or gradient per band");
-        auto file = resolve_below(scene_.file, image.path(), image.text());
-        sky.kind = Sky::Kind::image;
-        sky.image = decode_picture(file, "", read_file(file), max_texels);
-        sky.image.name = printable(image.text());
-        if (auto scale = json->find("scale"))
-            sky.scale = static_cast<float>(scale->number(0, 1e15));
     }
 }
 
