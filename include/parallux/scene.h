@@ -138,7 +138,9 @@ struct Scene {
     Sky sky;
     std::uint64_t triangles = 0;  ///< as read, zero-area ones included
     std::uint64_t zero_area = 0;  ///< dropped
-    double line_sphere = 0;       ///< radius for independent lines; 0: the scene's own bound
+    /// The scene repeats by these without end, both across the sky's up; zero: not that way.
+    std::array<glm::dvec3, 2> period{glm::dvec3(0), glm::dvec3(0)};
+    double line_sphere = 0;  ///< radius for independent lines; 0: the scene's own bound
     std::vector<std::string> warnings;
 };
 
@@ -173,7 +175,9 @@ struct LoadSettings {
     Spectrum reflectance = Spectrum::constant(0.5f);  ///< of faces without a material
     double scale = 1;                                 ///< multiplies every length of the file
     bool keep_triangles = false;                      ///< do not join triangle pairs
-    SkySettings sky;                                  ///< in place of the file's
+    /// The scene repeats after so much, in the file's units, along the two horizontal axes; 0: not.
+    std::array<double, 2> period{0, 0};
+    SkySettings sky;  ///< in place of the file's
 };
 
 /// Reads a glTF (.gltf, .glb), OBJ, STL or Parallux (.json) scene; the content decides where the

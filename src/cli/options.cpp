@@ -88,6 +88,11 @@ void add_scene(CLI::App& app, std::filesystem::path& scene, LoadSettings& load) 
         "perez:120:0.2, ground that it and the sun light",
         [&](auto& v) { parse_sky("--sky", v, load.sky); })
         ->group("Scene");
+    add(app, "--periodic", "X,Y",
+        "The scene repeats without end after so many of its units along x and y (z where y is up); "
+        "0: not that way",
+        [&](auto& v) { load.period = parse_period("--periodic", v); })
+        ->group("Scene");
     add(app, "--sun", "H,AZ[,D]",
         "In place of the scene's: elevation, azimuth from north by east (degrees), direct W/m² [0]",
         [&](auto& v) { parse_sun("--sun", v, load.sky); })

@@ -64,6 +64,18 @@ void parse_sun(const std::string& option, const std::string& value, SkySettings&
         sky.direct = grey(option, parts[2], 1e15);
 }
 
+std::array<double, 2> parse_period(const std::string& option, const std::string& value) {
+    const std::vector<std::string> parts = parts_of(value, ',');
+    if (parts.size() != 2)
+        refuse(option, value, "expected X,Y");
+    std::array<double, 2> period;
+    for (std::size_t k = 0; k < 2; ++k)
+        period[k] = parse_real(option, parts[k], 0, 1e15);
+    if (period[0] == 0 && period[1] == 0)
+        refuse(option, value, "expected one of them to be more than 0");
+    return period;
+}
+
 void settle_sky(const SkySettings& sky) {
     if ((sky.model == Model::clear || sky.model == Model::perez) && !sky.has_sun)
         throw Error(Fault::usage, "--sky clear and --sky perez need --sun");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "parallux/scene.h"
@@ -14,6 +15,9 @@ void parse_sky(const std::string& option, const std::string& value, SkySettings&
 
 /// ELEVATION,AZIMUTH or ELEVATION,AZIMUTH,DIRECT; degrees, W/m².
 void parse_sun(const std::string& option, const std::string& value, SkySettings& sky);
+
+/// X,Y: 0 or more, not both 0.
+std::array<double, 2> parse_period(const std::string& option, const std::string& value);
 
 /// What the two cannot know of each other.
 void settle_sky(const SkySettings& sky);

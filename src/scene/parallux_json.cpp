@@ -23,7 +23,7 @@ void read_parallux(SceneBuilder& builder, const Json& json) {
 ParalluxReader::ParalluxReader(SceneBuilder& builder, const JsonView& root)
     : builder_(builder), scene_(builder.scene()), root_(root) {
     root_.only({"parallux", "comment", "$schema", "bands", "up", "scale", "materials", "surfaces",
-                "meshes", "lights", "sky", "cameras", "line_sphere"});
+                "meshes", "lights", "sky", "cameras", "line_sphere", "periodic"});
     if (root_.at("parallux").count(1000000) != 1)
         root_.at("parallux").fail("only version 1 is read");
     scene_.bands = static_cast<std::uint32_t>(root_.count_or("bands", 3, max_bands));
@@ -38,6 +38,7 @@ void ParalluxReader::read() {
     read_surfaces();
     read_lights();
     read_sky();
+    read_period();
     read_cameras();
     if (auto radius = root_.find("line_sphere"))
         scene_.line_sphere = radius->number(1e-15, 1e15) * scale_ * builder_.settings().scale;

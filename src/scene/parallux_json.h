@@ -40,6 +40,7 @@ private:
 
     // parallux_sky.cpp: what lies around it
     void read_sky();
+    void read_period();
     bool read_drawn_sky(const JsonView& json);
     SkySettings read_sky_model(const JsonView& json) const;
 

@@ -46,6 +46,22 @@ void ParalluxReader::read_sky() {
         json->fail(*wrong);
 }
 
+void ParalluxReader::read_period() {
+    auto json = root_.find("periodic");
+    if (!json)
+        return;
+    json->only({"comment", "x", "y"});
+    const double scale = scale_ * builder_.settings().scale;
+    int count = 0;
+    for (const char* key : {"x", "y"})
+        if (auto vector = json->find(key))
+            scene_.period[count++] = vector->vector() * scale;
+    if (count == 0)
+        json->fail("must have x, y or both");
+    if (auto wrong = settle_period(scene_))
+        json->fail(*wrong);
+}
+
 // Skies that the file draws itself.
 bool ParalluxReader::read_drawn_sky(const JsonView& json) {
     Sky& sky = scene_.sky;

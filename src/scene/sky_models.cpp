@@ -123,23 +123,40 @@ SkyShape clear_shape(const glm::dvec3& sun) {
 }
 
 Spectrum horizontal_irradiance(const Sky& sky) {
-    // cos θ dω = dφ d(sin² θ) / 2: midpoints in azimuth and in sin² θ.
-    constexpr int rings = 256, round = 512;
+    // ∫ L sin h cos h dh dφ by midpoints.
+    constexpr int rings = 400, round = 512;
     double sum[max_bands] = {};
     for (int ring = 0; ring < rings; ++ring) {
-        const double sine_square = (ring + 0.5) / rings;
-        const double elevation = std::acos(std::sqrt(sine_square));
+        const double elevation = (ring + 0.5) / rings * pi / 2;
+        const double weight = std::sin(elevation) * std::cos(elevation);
         for (int k = 0; k < round; ++k) {
             const Spectrum radiance =
                 sky.radiance(sky_direction(sky, elevation, 2 * pi * (k + 0.5) / round));
             for (std::size_t band = 0; band < max_bands; ++band)
-                sum[band] += static_cast<double>(radiance[band]);
+                sum[band] += weight * static_cast<double>(radiance[band]);
         }
     }
     Spectrum irradiance;
     for (std::size_t band = 0; band < max_bands; ++band)
-        irradiance[band] = static_cast<float>(pi * sum[band] / (double(rings) * round));
+        irradiance[band] = static_cast<float>(pi * pi * sum[band] / (double(rings) * round));
     return irradiance;
+}
+
+std::optional<std::string> settle_period(Scene& scene) {
+    const glm::dvec3& up = scene.sky.up;
+    for (glm::dvec3& period : scene.period) {
+        const double length = glm::length(period), rise = glm::dot(period, up);
+        if (std::fabs(rise) > 1e-9 * length)
+            return "periods must be horizontal";
+        period -= rise * up;
+    }
+    const double first = glm::length(scene.period[0]), second = glm::length(scene.period[1]);
+    if (first == 0)
+        std::swap(scene.period[0], scene.period[1]);
+    if (first > 0 && second > 0 &&
+        glm::length(glm::cross(scene.period[0], scene.period[1])) < 1e-3 * first * second)
+        return "periods must not lie along one line";
+    return std::nullopt;
 }
 
 std::optional<std::string> put_sky(Scene& scene, const SkySettings& settings) {

@@ -12,6 +12,9 @@ namespace parallux {
 /// if anything; the scene is then as it was.
 std::optional<std::string> put_sky(Scene& scene, const SkySettings& settings);
 
+/// Makes the periods lie exactly across the sky's up. Returns what is wrong with them, if anything.
+std::optional<std::string> settle_period(Scene& scene);
+
 /// The unit vector toward a place in the sky: elevation above the horizon, azimuth from the sky's
 /// north by east, radians.
 glm::dvec3 sky_direction(const Sky& sky, double elevation, double azimuth);

@@ -9,6 +9,7 @@
 #include "lines/directions.h"
 #include "parallel.h"
 #include "patches/patch_values.h"
+#include "solve/far_shadow.h"
 
 namespace parallux {
 
@@ -45,11 +46,9 @@ struct Place {
     glm::dvec3 point, normal;
     std::uint32_t surface;
     int number;  // of the point in its cell
-    double far;  // farther than the scene reaches
+    const FarShadow& shadow;
 
-    bool sees(const glm::dvec3& toward) const {
-        return !rays.blocked(point, point + far * toward, surface);
-    }
+    bool sees(const glm::dvec3& toward) const { return !shadow.blocked(point, toward, surface); }
 };
 
 // W/m² per W/m² across its direction of a light from far away.
@@ -105,8 +104,7 @@ void add_light_points(const Run& run, DirectLight& direct) {
     if (scene.lights.empty())
         return;
     std::uint32_t bands = patches.bands;
-    Bounds bounds = scene_bounds(scene);
-    double far = 2 * glm::distance(bounds.low, bounds.high);
+    const FarShadow shadow(*run.rays, scene);
     parallel_for(
         run.plan.threads, scene.surfaces.size(), 16,
         [&](std::size_t begin, std::size_t end, unsigned worker) {
@@ -134,7 +132,7 @@ void add_light_points(const Run& run, DirectLight& direct) {
                             glm::dvec3 point = surface_point(scene, surface, cell.u0 + a * cell.du,
                                                              cell.v0 + b * cell.dv);
                             const Place place{
-                                *run.rays, point, normal, static_cast<std::uint32_t>(s), k, far};
+                                *run.rays, point, normal, static_cast<std::uint32_t>(s), k, shadow};
                             for (const Light& light : scene.lights) {
                                 double flux = arrives(place, light) * cell_area /
                                               (points_a_side * points_a_side);

@@ -21,7 +21,7 @@ Scene scene_under(const TestFolder& folder, const std::string& sky, const std::s
     return load_scene(folder.write("sky.json", under(sky, more)));
 }
 
-// Irradiance of a plane that faces up, by steps of elevation: another rule than the library's.
+// Irradiance of a plane that faces up, by finer steps than the library's.
 double horizontal(const Sky& sky) {
     constexpr int rings = 2000, round = 720;
     double sum = 0;
