@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
@@ -78,8 +79,21 @@ bool is_periodic(const Scene& scene) {
     return !periods_of(scene).empty();
 }
 
-double tilt(const Scene& scene) {
-    return limit_of(scene, periods_of(scene)).sine;
+std::string tilt_warning(const Scene& scene) {
+    const std::vector<glm::dvec3> periods = periods_of(scene);
+    if (periods.empty())
+        return "";
+    // Of the sphere, the belt about the horizon, or the caps about the one period.
+    const double sine = limit_of(scene, periods).sine;
+    const double share = periods.size() == 2 ? sine : 1 - std::sqrt(1 - sine * sine);
+    if (share < 0.01)
+        return "";
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "%.1f %% of the directions lie so close to the horizon that they would pass more "
+                  "than %.0f tiles, and are tilted by up to %.1f degrees",
+                  100 * share, most_copies, std::asin(sine) * 180 / pi);
+    return text;
 }
 
 PeriodicBundle::PeriodicBundle(const Scene& scene, const Patches& patches, const Bundle& bundle)

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -21,8 +23,7 @@ bool is_periodic(const Scene& scene);
 /// too, by the projections of its periods, so that the lines through one cell of that lattice stand
 /// for all: every patch meets, in one copy or another, as many as it has in a scene that does not
 /// repeat. The copies that overlap the cell, and no others, are projected. Near the horizon that
-/// would be more than `most_copies`: such directions are tilted until it is not, those within
-/// tilt() of a period's line or plane.
+/// would be more than `most_copies`: such directions are tilted until it is not.
 class PeriodicBundle {
 public:
     /// Projects. Keeps no reference but to what it copies; linear in the copied surfaces.
@@ -55,7 +56,8 @@ private:
     Projection projection_;
 };
 
-/// How far directions are tilted at most: the sine of the angle.
-double tilt(const Scene& scene);
+/// Says how many directions of a periodic scene are tilted; "" where it is less than one in a
+/// hundred, or the scene is not periodic.
+std::string tilt_warning(const Scene& scene);
 
 }  // namespace parallux

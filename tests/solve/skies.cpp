@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <string>
 
 #include "parallux/solve.h"
 #include "scene/sky_models.h"
@@ -62,7 +63,7 @@ Sample irradiance(const Scene& scene) {
 }
 
 struct Case {
-    const char* name;
+    std::string name;
     SkySettings sky;
     double up, south;  // closed forms; 0: by quadrature
 };
@@ -120,7 +121,8 @@ TEST_CASE("plates in the open meet every sky's closed form or quadrature to 0.1 
 }
 
 TEST_CASE("a sky picture lights plates as its quadrature says") {
-    // A bright south-eastern quarter. Planted, seen: the picture upside down.
+    // A bright quarter; how it stands is held by tests/scene/surface_test.cpp. Planted, seen: the
+    // sky behind a line taken for the one ahead.
     for (bool upright : {false, true}) {
         Scene scene = plate(upright);
         scene.sky.kind = Sky::Kind::image;

@@ -54,8 +54,8 @@ Light sun(double elevation) {
 }  // namespace
 
 TEST_CASE("a sun's disc in the open brings what its middle would, half of it at the horizon") {
-    // Planted, seen: places even in the angle, not in the disc's projection; the part of the disc
-    // that lies below the horizon counted in.
+    // Planted, seen: the part of the disc that lies below the horizon counted in; a disc of twice
+    // the radius; places even in the radius, not in area.
     Scene scene = floor_of({{0, 0, 0}});
     for (double elevation : {0.3 * degree, 10 * degree, 60 * degree, 90 * degree}) {
         scene.lights = {sun(elevation)};
@@ -71,7 +71,8 @@ TEST_CASE("a sun's disc in the open brings what its middle would, half of it at 
 
 TEST_CASE("a straight edge casts a penumbra of the disc's width") {
     // A sun in the zenith and a lid 10 m above, whose edge hides all of the disc beyond x: what is
-    // seen is a segment of it. Planted, seen: a disc of twice the radius; no disc.
+    // seen is a segment of it. Planted, seen: a disc of twice the radius; places even in the
+    // radius.
     const double radius = 10 * std::tan(sun_half_angle);
     std::vector<glm::dvec3> places;
     const std::vector<double> at = {-1.2, -0.8, -0.5, 0, 0.3, 0.7, 1.2};
@@ -92,7 +93,7 @@ TEST_CASE("a straight edge casts a penumbra of the disc's width") {
 
 TEST_CASE("lights as KHR_lights_punctual has them: cones fall off, ranges end") {
     // The extension's advice: the square of how far the cosine is from the outer cone's to the
-    // inner one's. Planted, seen: the angle in the cosine's place; a range in centimetres.
+    // inner one's. Planted, seen: not the square; a range in centimetres.
     Scene scene = floor_of({{0, 0, 0}, {0.6, 0, 0}, {1, 0, 0}, {3, 0, 0}});
     Light spot;
     spot.kind = Light::Kind::spot;
