@@ -45,7 +45,7 @@ std::vector<Sensor> read_sensors(const std::filesystem::path& csv, double scale 
 /// for Monte Carlo Rendering, 1995). Patches send the solution's B evenly from all their area, so
 /// that near a patch, within about its size, a reading is as coarse as the patches. Sensors that
 /// lie on a surface are taken as just above it. Linear in sensors and rays, in parallel, the same
-/// bits for any number of threads.
+/// bits for any number of threads. Throws Fault::usage for a scene that repeats.
 SensorReadings sense(const Scene& scene, const Patches& patches, const Solution& solution,
                      const std::vector<Sensor>& sensors, const SensorSettings& settings = {});
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lines/periodic.h"
+
 namespace parallux {
 
 namespace {
@@ -35,6 +37,10 @@ void change_scene(const SolveOptions& options, Scene& scene) {
     if (!changes.temperatures.empty())
         Temperatures(changes.temperatures).apply(scene, changes.sky_temperature);
     check_shown_bands(options, scene);
+    if (!options.sensors.empty() && is_periodic(scene))
+        throw Error(
+            Fault::usage,
+            "--sensors: they gather along rays through one tile; a periodic scene has none");
     if (!options.receivers.empty())
         named_surfaces(scene, options.receivers, "--receivers");
 }

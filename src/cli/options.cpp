@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "cli/change_options.h"
+#include "cli/sky_options.h"
 #include "cli/values.h"
 #include "vectors.h"
 
@@ -95,6 +96,21 @@ void add_scene(CLI::App& app, std::filesystem::path& scene, LoadSettings& load) 
             load.reflectance =
                 Spectrum::constant(static_cast<float>(parse_real("--reflectance", v, 0, 0.999)));
         })
+        ->group("Scene");
+    add(app, "--sky", "SKY",
+        "In place of the scene's: dark, uniform:L, overcast:L, clear:L (radiance, at the zenith, "
+        "W/(m² sr)), perez:D (diffuse horizontal W/m²), image:FILE; with :ALBEDO, as in "
+        "perez:120:0.2, ground that it and the sun light",
+        [&](auto& v) { parse_sky("--sky", v, load.sky); })
+        ->group("Scene");
+    add(app, "--periodic", "X,Y",
+        "The scene repeats without end after so many of its units along x and y (z where y is up); "
+        "0: not that way",
+        [&](auto& v) { load.period = parse_period("--periodic", v); })
+        ->group("Scene");
+    add(app, "--sun", "H,AZ[,D]",
+        "In place of the scene's: elevation, azimuth from north by east (degrees), direct W/m² [0]",
+        [&](auto& v) { parse_sun("--sun", v, load.sky); })
         ->group("Scene");
 }
 
@@ -336,6 +352,7 @@ void settle(SolveOptions& o) {
     contradict(o.bake.quantity != Quantity::radiosity && !bakes,
                "--quantity needs --bake or --lightmap");
     o.bake.flat = o.lightmap_settings.flat = o.picture.flat;
+    settle_sky(o.load.sky);
     if (o.quiet && o.progress == ProgressMode::automatic)
         o.progress = ProgressMode::off;
     settle_changes(o);
@@ -449,6 +466,7 @@ Options parse_options(int argc, const char* const* argv) {
         settle(options.solve);
     if (options.command == Command::factors)
         settle(options.factors);
+    settle_sky(options.info.load.sky);
     for (double* length : {&options.info.patches.size, &options.info.solve.sphere_radius})
         *length *= options.info.load.scale;
     return options;

@@ -5,11 +5,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/periodic.h"
 #include "lines/ray_scene.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "parallux/sensors.h"
 #include "solve/emitters.h"
+#include "solve/far_shadow.h"
 #include "solve/light_points.h"
 #include "solve/shot_rays.h"
 #include "solve/sobol.h"
@@ -81,7 +83,7 @@ public:
         Bands sum{};
         const glm::dvec3 from = sensor.position + 1e-6 * extent_ * sensor.normal;
         for (const Light& light : scene_.lights) {
-            const double each = light_arrives(rays_, light, from, sensor.normal, none, 2 * extent_);
+            const double each = light_arrives(rays_, shadow_, light, from, sensor.normal, none);
             for (std::uint32_t band = 0; band < patches_.bands; ++band)
                 sum[band] += each * light.intensity[band];
         }
@@ -152,6 +154,7 @@ private:
     const Patches& patches_;
     const Solution& solution_;
     RayScene rays_;
+    FarShadow shadow_{rays_, scene_};
     std::uint32_t rays_a_part_;
     double extent_ = 0, power_ = 0;
     Emitters emitters_;
@@ -165,6 +168,9 @@ SensorReadings sense(const Scene& scene, const Patches& patches, const Solution&
     const std::uint32_t bands = patches.bands;
     if (solution.bands != bands || solution.radiosity.size() != patches.count() * bands)
         throw Error(Fault::internal, "the solution is not of these patches");
+    if (is_periodic(scene))
+        throw Error(Fault::usage,
+                    "sensors gather along rays through one tile: a periodic scene has none");
     const Gather gather(scene, patches, solution, settings);
     SensorReadings readings;
     readings.bands = bands;

@@ -27,6 +27,7 @@ Sky squared(Sky sky) {
     for (Spectrum* radiance : {&sky.zenith, &sky.horizon, &sky.ground})
         for (float& value : radiance->value)
             square(value);
+    sky.shape.power *= 2;
     for (glm::vec3& texel : sky.image.texels)
         for (int k = 0; k < 3; ++k)
             square(texel[k]);
