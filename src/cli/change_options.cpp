@@ -19,25 +19,6 @@ CLI::Option* add(CLI::App& app, const char* group, const std::string& name,
         ->group(group);
 }
 
-std::filesystem::path parse_file(const std::string& option, const std::string& value) {
-    if (value.empty() || value.starts_with("--"))
-        refuse(option, value, "expected a file name");
-    return value;
-}
-
-std::vector<std::string> parse_names(const std::string& option, const std::string& value) {
-    std::vector<std::string> names(1);
-    for (char c : value)
-        if (c == ',')
-            names.emplace_back();
-        else
-            names.back() += c;
-    for (const std::string& name : names)
-        if (name.empty() || value.starts_with("--"))
-            refuse(option, value, "expected names with commas between them");
-    return names;
-}
-
 }  // namespace
 
 void add_changes(CLI::App& app, SolveOptions& o) {
@@ -45,7 +26,7 @@ void add_changes(CLI::App& app, SolveOptions& o) {
     SceneChanges& c = o.changes;
     add(app, group, "--materials", "F.csv",
         "Values by material: material,reflectance_0 …,emission_0 … (W/m²)",
-        [&](auto& v) { c.materials = parse_file("--materials", v); });
+        [&](auto& v) { c.materials = parse_output("--materials", v); });
     add(app, group, "--bands", "K", "Bands, 1 to 8 [the scene's, or the materials' table's]",
         [&](auto& v) {
             c.bands = static_cast<std::uint32_t>(parse_count("--bands", v, 1, max_bands));
@@ -57,7 +38,7 @@ void add_changes(CLI::App& app, SolveOptions& o) {
         add(app, group, "--temperatures", "F.csv",
             "Long-wave exchange: kind,name,temperature (K); kind all, material, object, surface "
             "or patch; emissivity is 1 - reflectance of band 0",
-            [&](auto& v) { c.temperatures = parse_file("--temperatures", v); });
+            [&](auto& v) { c.temperatures = parse_output("--temperatures", v); });
     add(app, group, "--sky-temperature", "K", "Of a uniform black sky around the scene [0]",
         [&](auto& v) { c.sky_temperature = parse_real("--sky-temperature", v, 0, hottest); })
         ->needs(temperatures);
@@ -70,7 +51,7 @@ void add_measurements(CLI::App& app, SolveOptions& o) {
         [&](auto& v) { o.receivers = parse_names("--receivers", v); });
     auto* fluxes = add(app, group, "--fluxes", "FILE.csv",
                        "Net long-wave fluxes with --temperatures: incoming, outgoing, net",
-                       [&](auto& v) { o.fluxes = parse_file("--fluxes", v); });
+                       [&](auto& v) { o.fluxes = parse_output("--fluxes", v); });
     add(app, group, "--fluxes-by", "UNIT",
         "A row for each patch, surface, object or material [object]",
         [&](auto& v) {
@@ -83,9 +64,9 @@ void add_measurements(CLI::App& app, SolveOptions& o) {
         ->needs(fluxes);
     auto* sensors = add(app, group, "--sensors", "F.csv",
                         "Points that measure irradiance: x,y,z,nx,ny,nz and, if any, name",
-                        [&](auto& v) { o.sensors = parse_file("--sensors", v); });
+                        [&](auto& v) { o.sensors = parse_output("--sensors", v); });
     auto* table = add(app, group, "--sensor-table", "FILE.csv", "What the sensors measure",
-                      [&](auto& v) { o.sensor_table = parse_file("--sensor-table", v); });
+                      [&](auto& v) { o.sensor_table = parse_output("--sensor-table", v); });
     sensors->needs(table);
     table->needs(sensors);
     add(app, group, "--sensor-rays", "N", "A sensor [16384]", [&](auto& v) {
