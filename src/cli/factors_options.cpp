@@ -1,6 +1,7 @@
 #include "cli/factors_options.h"
 
 #include "cli/option_group.h"
+#include "cli/sky_options.h"
 #include "cli/values.h"
 #include "vectors.h"
 
@@ -32,6 +33,12 @@ void add_scene(CLI::App& app, FactorsOptions& o) {
     const OptionGroup option{app, "Scene"};
     option("--scale", "X", "Metres per unit of the scene file [1]",
            [&o](auto& v) { o.load.scale = parse_positive("--scale", v); });
+    option("--periodic", "X,Y",
+           "The scene repeats without end after so many of its units along x and y (z "
+           "where y is up); 0: not that way",
+           [&o](auto& v) { o.load.period = parse_period("--periodic", v); });
+    option("--exclude", "NAMES", "Leave out objects or materials of these names: a,b*",
+           [&o](auto& v) { o.exclude = parse_names("--exclude", v); });
 }
 
 void add_outputs(CLI::App& app, FactorsOptions& o) {

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "reference/matrix.h"
@@ -71,6 +72,7 @@ struct Footprint {
                threads * (Regions::most + 1) * Regions::most * sizeof(std::uint64_t) +
                (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
+               (banks < threads ? 1 : threads) * copies_bytes(scene) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
     // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.

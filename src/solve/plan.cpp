@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include <glm/geometric.hpp>
-
 #include "lines/periodic.h"
 #include "parallel.h"
 #include "parallux/error.h"
@@ -47,18 +45,6 @@ void check_periodic(const Scene& scene, const SolveSettings& settings) {
                                           "or surfaces that emit");
 }
 
-// Copies of the tile must fit the lines of a bundle.
-void check_copies(const Scene& scene, const Plan& plan) {
-    double period = 0;
-    for (const glm::dvec3& p : scene.period)
-        period = std::max(period, glm::length(p));
-    const double lines = (2 * plan.sphere.radius + (most_copies + 4) * period) / plan.spacing;
-    if (lines > 1 << 18)
-        throw Error(Fault::usage,
-                    "the line spacing is too small for a periodic scene, which takes "
-                    "up to 64 copies of the tile: choose a larger --line-spacing");
-}
-
 }  // namespace
 
 Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
@@ -74,8 +60,7 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     for (float reflectance : patches.reflectance)
         plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
     plan_lines(patches, settings, plan);
-    if (periodic)
-        check_copies(scene, plan);
+    check_copies(scene, plan.sphere.radius, plan.spacing);
     // All rounds' groups add up their quanta.
     const double times = plan.groups * (settings.target_error > 0 ? most_rounds : 1);
     plan.watts_per_quantum =
