@@ -97,6 +97,9 @@ void settle_changes(SolveOptions& o) {
     // All surfaces are sources then, and the error that is stated leaves sources out.
     contradict(thermal && o.solve.target_error > 0,
                "--target-error and --temperatures exclude each other; see the errors in --fluxes");
+    const SkySettings& sky = o.load.sky;
+    contradict(thermal && (sky.model != SkySettings::Model::from_file || sky.has_sun),
+               "--sky and --sun exclude --temperatures; give --sky-temperature");
     contradict(thermal && o.changes.bands > 1, "--temperatures needs one band");
     // What all surfaces emit is found best along the same lines as what they reflect.
     if (thermal && o.solve.first_shot == FirstShot::automatic && o.solve.first_shot_rays == 0)

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "parallux/changes.h"
 #include "parallux/error.h"
 #include "scene/input.h"
@@ -47,6 +49,9 @@ std::vector<bool> named_surfaces(const Scene& scene, const std::vector<std::stri
 
 void exclude_surfaces(Scene& scene, const std::vector<std::string>& patterns) {
     const std::vector<bool> out = named_surfaces(scene, patterns, "--exclude");
+    const glm::vec2 no_uv(std::numeric_limits<float>::quiet_NaN());
+    if (!scene.lightmap_uv.empty())
+        scene.lightmap_uv.resize(scene.surfaces.size(), {no_uv, no_uv, no_uv});
     std::size_t left = 0;
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         if (out[s])
@@ -54,6 +59,8 @@ void exclude_surfaces(Scene& scene, const std::vector<std::string>& patterns) {
         scene.surfaces[left] = scene.surfaces[s];
         if (!scene.attributes.empty())
             scene.attributes[left] = scene.attributes[s];
+        if (!scene.lightmap_uv.empty())
+            scene.lightmap_uv[left] = scene.lightmap_uv[s];
         ++left;
     }
     if (left == 0)
@@ -61,6 +68,8 @@ void exclude_surfaces(Scene& scene, const std::vector<std::string>& patterns) {
     scene.surfaces.resize(left);
     if (!scene.attributes.empty())
         scene.attributes.resize(left);
+    if (!scene.lightmap_uv.empty())
+        scene.lightmap_uv.resize(left);
 }
 
 }  // namespace parallux

@@ -93,6 +93,33 @@ TEST_CASE("receivers take rows, exclusion takes surfaces") {
     CHECK(solve(place, {"--receivers", "wall"}).code == 2);  // of no table
 }
 
+// Planted, seen: exclusion that takes nothing out.
+TEST_CASE("bakes and lightmaps of one band and of five, without what is excluded") {
+    Workplace place;
+    write_materials(place);
+    write_file(place / "one.csv", "material,reflectance_0,emission_0\nwall,0.3,0\nlight,0,3\n");
+    auto bake = [&](std::string materials, std::vector<std::string> more) {
+        more.insert(more.end(), {"--materials", place / materials, "--lightmap", place / "m.exr"});
+        for (std::string ending : {"gltf", "ply"})
+            more.insert(more.end(), {"--bake", place / ("b." + ending)});
+        const Outcome outcome = solve(place, more);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 0);
+        CHECK(read_file(place / "m.exr").size() > 100);
+        CHECK(read_file(place / "m.glb").size() > 100);
+        return read_file(place / "b.gltf") + read_file(place / "b.ply");
+    };
+    for (std::string materials : {"one.csv", "m.csv"}) {
+        const std::string bands = materials == "m.csv" ? "5" : "1";
+        const std::string all = bake(materials, {});
+        CHECK(all.find("mean of " + bands) != std::string::npos);
+        // Receivers are rows of the table, and of nothing else.
+        CHECK(bake(materials, {"--table", place / "t.csv", "--receivers", "light"}) == all);
+        CHECK(bake(materials, {"--exclude", "light"}).size() < all.size());
+    }
+    CHECK(solve(place, {"--bake", place / "b.ply", "--receivers", "light"}).one_line("--table"));
+}
+
 TEST_CASE("temperatures in, fluxes out") {
     Workplace place;
     write_file(place / "t.csv", "kind,name,temperature\nall,,300\nmaterial,light,400\n");
@@ -114,6 +141,8 @@ TEST_CASE("temperatures in, fluxes out") {
     CHECK(outcome.code == 3);
     CHECK(outcome.one_line("no temperature"));
     CHECK(solve(place, {"--sky-temperature", "300"}).code == 2);
+    CHECK(solve(place, {"--temperatures", place / "t.csv", "--sky", "uniform:1"})
+              .one_line("--sky-temperature"));
     CHECK(solve(place, {"--temperatures", place / "t.csv", "--sky-temperature", "-1"}).code == 2);
     CHECK(run(place,
               {"solve", place.scene(), "--target-error", "0.1", "--temperatures", place / "t.csv"})
@@ -133,6 +162,10 @@ TEST_CASE("sensors in, irradiance out") {
     CHECK(lines(place / "o.csv") == 3);
     CHECK(solve(place, {"--sensors", place / "s.csv"}).code == 2);
     CHECK(solve(place, {"--sensor-table", place / "o.csv"}).code == 2);
+    outcome = solve(place, {"--sensors", place / "s.csv", "--sensor-table", place / "o.csv",
+                            "--periodic", "2,2"});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.one_line("periodic"));
     for (const char* bad :
          {"x,y,z,nx,ny\n0,0,0,0,0\n", "x,y,z,nx,ny,nz\n", "x,y,z,nx,ny,nz\n0,0,0,0,0,0\n",
           "x,y,z,nx,ny,nz\n0,0,inf,0,0,1\n", "x,y,z,nx,ny,nz,colour\n0,0,0,0,0,1,red\n"}) {

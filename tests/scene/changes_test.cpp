@@ -126,3 +126,16 @@ TEST_CASE("names with * and ?, and what they leave out") {
     CHECK_THROWS_AS(exclude_surfaces(scene, {"nobody"}), Error);
     CHECK_THROWS_AS(exclude_surfaces(scene, {"*"}), Error);
 }
+
+// Planted, seen: coordinates left with the surfaces that had them before.
+TEST_CASE("surfaces keep their own lightmap coordinates when others are left out") {
+    Scene scene = painted();
+    for (int k = 0; k < 5; ++k)  // the last has none
+        scene.lightmap_uv.push_back({glm::vec2(k), glm::vec2(k), glm::vec2(k)});
+    exclude_surfaces(scene, {"wall"});
+    REQUIRE(scene.surfaces.size() == 3);
+    REQUIRE(scene.lightmap_uv.size() == 3);
+    CHECK(scene.lightmap_uv[0][0].x == 3);
+    CHECK(scene.lightmap_uv[1][0].x == 4);
+    CHECK(scene.lightmap_uv[2][0].x != scene.lightmap_uv[2][0].x);
+}
