@@ -9,6 +9,8 @@
 #include "view_factors/scenes.h"
 
 // View factors of scenes that repeat without end: closed forms, and the same from many tiles.
+// Planted, seen to fail the first two: lines outside the period's cell let in; copies to the next
+// tile alone.
 
 using namespace parallux;
 using namespace parallux::test;
@@ -132,7 +134,7 @@ TEST_CASE("periodic factors: equal bits on any number of threads, refusals, memo
     CHECK_THROWS_AS(view_factors(tile, patches, settings), Error);
 }
 
-// Planted, seen: without the quarter for directions in between.
+// Planted, seen: without the quarter for directions in between; copies in neither forecast.
 TEST_CASE("no bundle has more copies than the forecast of memory counts") {
     for (const double height : {1.0, 5.0}) {
         Scene tile = blocks(0);
