@@ -120,7 +120,11 @@ TEST_CASE("nonsense is refused with code 2, naming option and value") {
     CHECK(refusal({"--sky", "perez:100:0.2", "--sun", "40,180,600", "--periodic", "20,0"}) == "");
     CHECK(refusal({"--lines", "1e8", "--max-memory", "1.5GiB", "--exposure", "-1", "--image",
                    "a.png"}) == "");
-    Outcome outcome = run(place, {"solve", place.scene(), "--lines", "-5"});
+    // Planted, seen: one tile alone predicted.
+    Outcome outcome = run(place, {"info", place.scene(), "--predict", "--periodic", "2,2"});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.one_line("periodic"));
+    outcome = run(place, {"solve", place.scene(), "--lines", "-5"});
     CHECK(outcome.code == 2);
     CHECK(outcome.one_line("--lines -5"));
     CHECK(run(place, {}).code == 2);
