@@ -93,9 +93,10 @@ struct FactorCheck {
 /// Under a threshold T, entries with F_ij < T and F_ji < T are left out, but for the largest of a
 /// row, and the rest is scaled again: what they had goes to the others of their rows, in
 /// proportion. What no scaling can place, where few lines left a node, stays on the diagonal and
-/// is told in `rest`. Storage grows with the pairs that see each other. Equal bits on any number
-/// of threads. Throws Fault::memory when it needs more than max_memory: before it begins, after
-/// the first bundles have told how many pairs there are, or when there are more nevertheless.
+/// is told in `rest`. In a scene that repeats, factors to all copies of a node are one. Storage
+/// grows with the pairs that see each other. Equal bits on any number of threads. Throws
+/// Fault::memory when it needs more than max_memory: before it begins, after the first bundles have
+/// told how many pairs there are, or when there are more nevertheless.
 Factors view_factors(const Scene& scene, const Patches& patches, const FactorSettings& settings,
                      const ProgressCallback& progress = {});
 

@@ -128,19 +128,27 @@ struct Projection {
 
 class PlaneSides;
 
+/// Columns left … right - 1 and rows top … bottom - 1 of a bundle.
+struct LineWindow {
+    std::int32_t left = INT32_MIN, right = INT32_MAX, top = INT32_MIN, bottom = INT32_MAX;
+};
+
 /// Finds all crossings of a bundle by rasterising the surfaces. Corners are snapped to a grid of
 /// 1/4096 spacing and rows are filled by exact integer arithmetic, half open on either side, so
 /// that two faces with a common edge leave no line out and share none: every line meets a closed
 /// surface an even number of times. Immutable after construction; queries run on any thread.
 class Projector {
 public:
+    /// many: does not look for an order of the surfaces' planes, which takes longer than a bundle.
+    enum class Surfaces { any, many };
     /// Keeps references to both: they must outlive the projector.
-    Projector(const Scene& scene, const Patches& patches);
+    Projector(const Scene& scene, const Patches& patches, Surfaces surfaces = Surfaces::any);
 
     /// Projects corners and sorts surfaces into tiles, in parallel where they are many. Linear in
     /// corners, surfaces and the tiles they cover. Throws Fault::usage when the spacing gives more
-    /// than 2¹⁸ lines a side.
-    void project(const Bundle& bundle, Projection& projection, unsigned threads = 1) const;
+    /// than 2¹⁸ lines a side. With a window, only lines in it are looked at.
+    void project(const Bundle& bundle, Projection& projection, unsigned threads = 1,
+                 const LineWindow* window = nullptr) const;
 
     /// Scratch of one thread.
     struct Workspace;

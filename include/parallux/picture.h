@@ -19,6 +19,9 @@ struct PictureSettings {
     double exposure = 0;             ///< stops, on top of the automatic one
     bool automatic_exposure = true;  ///< PNG: bring the picture's log-mean to middle grey
     bool filmic = true;              ///< PNG: filmic curve; else clamped
+    /// PNG: one band, shown in grey, or three as red, green and blue; empty: all of a picture that
+    /// has one or three.
+    std::vector<std::uint32_t> shown_bands;
     unsigned threads = 0;
 };
 
@@ -50,8 +53,9 @@ Picture render(const Scene& scene, const Patches& patches, const Solution& solut
                const Camera& camera, const PictureSettings& settings);
 
 /// Writes .exr (linear radiance and all layers, float) or .png (exposed and tone-mapped, 8 bit
-/// sRGB). The file is whole or untouched; throws Fault::output. Scenes of other than three bands
-/// are shown in grey of their mean in PNG, and have one channel a band in EXR.
+/// sRGB). The file is whole or untouched; throws Fault::output. EXR has one channel a band and
+/// layer, R, G, B of three, else 0 … K-1. PNG of other than one or three bands needs shown_bands;
+/// throws Fault::usage without.
 void write_picture(const std::filesystem::path& file, const Picture& picture,
                    const PictureSettings& settings);
 

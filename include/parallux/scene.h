@@ -74,16 +74,37 @@ struct Light {
     double inner_cone = 0;           ///< spot: full strength within this angle, radians
     double outer_cone = pi / 4;      ///< spot: nothing beyond it
     double range = 0;                ///< 0: no limit (glTF's range, a hard end here)
+    double half_angle = 0;           ///< directional: of the disc it comes from, radians; 0: none
+};
+
+/// Half the angle that the sun's disc subtends from the earth, radians.
+inline constexpr double sun_half_angle = 0.2665 * pi / 180;
+
+/// How a sky with a sun varies, in the form that the CIE's general sky (ISO 15469:2004) and Perez's
+/// all-weather sky share: radiance ∝ φ(θ) f(χ), φ = 1 + a exp(b / cos θ),
+/// f = 1 + c (exp(d χ) - offset) + e cos² χ, θ from the zenith, χ from the sun; nowhere below 0.
+struct SkyShape {
+    double a = 0, b = 0, c = 0, d = 0, e = 0;
+    double offset = 0;
+    glm::dvec3 sun{0, 0, 1};  ///< unit, toward it
+    double power = 1;         ///< that φ f is raised to; 2 for second moments
+
+    /// (φ f)^power seen `height` = cos θ above the horizon; 0 below it. With b > 0, which Perez's
+    /// table has, φ would grow beyond all bounds at the horizon: it stays what it is at 6°.
+    double relative(double height, double cos_to_sun) const;
+    /// No smaller than the largest of these.
+    double bound() const;
 };
 
 /// Light from outside the scene; radiance per band, W/(m² sr).
 struct Sky {
-    enum class Kind : std::uint8_t { dark, uniform, gradient, image };
+    enum class Kind : std::uint8_t { dark, uniform, gradient, image, shaped };
     Kind kind = Kind::dark;
     glm::dvec3 up{0, 0, 1};  ///< unit
     Spectrum zenith;         ///< uniform: the radiance everywhere above and below
     Spectrum horizon;  ///< gradient: radiance at the horizon, linear in sin(elevation) to zenith
-    Spectrum ground;   ///< gradient: radiance below the horizon
+    Spectrum ground;   ///< gradient, shaped: radiance below the horizon
+    SkyShape shape;    ///< shaped: zenith times this
     Texture image;     ///< image: latitude-longitude, top row at `up`
     float scale = 1;   ///< image: multiplies its texels
     glm::dvec3 north{0, 1,
@@ -120,16 +141,47 @@ struct Scene {
     Sky sky;
     std::uint64_t triangles = 0;  ///< as read, zero-area ones included
     std::uint64_t zero_area = 0;  ///< dropped
-    double line_sphere = 0;       ///< radius for independent lines; 0: the scene's own bound
+    /// The scene repeats by these without end, both across the sky's up; zero: not that way.
+    std::array<glm::dvec3, 2> period{glm::dvec3(0), glm::dvec3(0)};
+    double line_sphere = 0;  ///< radius for independent lines; 0: the scene's own bound
     std::vector<std::string> warnings;
 };
 
-/// How a mesh format that says nothing about a thing is to be read.
+/// A sky by its model. Lengths of arrays as elsewhere: a value a band.
+///  uniform   the same radiance everywhere, below the horizon too
+///  overcast  CIE: L = L_z (1 + 2 sin h) / 3 (P. Moon and D. E. Spencer, Illumination from a
+///            non-uniform sky, 1942)
+///  clear     CIE standard clear sky: type 12 of the general sky of ISO 15469:2004, which is
+///            R. Kittler's of 1967, with L_z at the zenith
+///  perez     all-weather sky from direct and diffuse irradiance (R. Perez, R. Seals and
+///            J. Michalsky, All-weather model for sky luminance distribution, Solar Energy 50(3),
+///            1993), so that the diffuse irradiance is met exactly; clearness and brightness go by
+///            the bands' means
+///  image     latitude-longitude picture, from outside the scene's folder too
+/// With a sun, its disc is a directional light; clear and perez need its place.
+struct SkySettings {
+    enum class Model : std::uint8_t { from_file, dark, uniform, overcast, clear, perez, image };
+    Model model = Model::from_file;
+    Spectrum radiance;        ///< uniform; overcast and clear: at the zenith; W/(m² sr)
+    Spectrum diffuse;         ///< perez: on a horizontal plane, W/m²
+    bool has_sun = false;     ///< in place of the suns that the file has
+    double elevation = 0;     ///< of the sun's centre, radians, 0 … π/2
+    double azimuth = 0;       ///< radians, from north by east
+    Spectrum direct;          ///< of the sun, W/m² across its direction
+    bool has_ground = false;  ///< below the horizon
+    Spectrum albedo;          ///< times the horizontal irradiance of sky and sun
+    std::filesystem::path image;
+};
+
+/// How a mesh format that says nothing about a thing is to be read, and the sky over the scene.
 struct LoadSettings {
     Spectrum reflectance = Spectrum::constant(0.5f);  ///< of faces without a material
     double scale = 1;                                 ///< multiplies every length of the file
     bool keep_triangles = false;                      ///< do not join triangle pairs
     bool lightmap_uv = false;                         ///< read glTF's TEXCOORD_1 as lightmap_uv
+    /// The scene repeats after so much, in the file's units, along the two horizontal axes; 0: not.
+    std::array<double, 2> period{0, 0};
+    SkySettings sky;  ///< in place of the file's
 };
 
 /// Reads a glTF (.gltf, .glb), OBJ, STL or Parallux (.json) scene; the content decides where the
@@ -154,6 +206,10 @@ double surface_area(const Scene& scene, const Surface& surface);
 /// clamped to [0, 0.999].
 Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v);
 Spectrum surface_emission(const Scene& scene, std::uint32_t surface, double u, double v);
+
+/// Irradiance of an unobstructed plane that faces up, from the sky alone; W/m² per band. By
+/// quadrature, to 10⁻⁴.
+Spectrum horizontal_irradiance(const Sky& sky);
 
 struct Bounds {
     glm::dvec3 low{0};

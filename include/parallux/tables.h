@@ -14,9 +14,10 @@ namespace parallux {
 /// Writes one row a patch in patch order, 9 significant digits:
 /// patch,surface,name,material,iu,iv,x,y,z,nx,ny,nz,area,side, then per band b
 /// reflectance_b,emission_b,irradiance_b,radiosity_b,stderr_b. `side` is front or back; stderr_b
-/// is empty when not estimated. The file is whole or untouched; throws Fault::output.
+/// is empty when not estimated. `receivers`: only patches of these surfaces, one entry a surface;
+/// empty: all. The file is whole or untouched; throws Fault::output.
 void write_table(const std::filesystem::path& file, const Scene& scene, const Patches& patches,
-                 const Solution& solution);
+                 const Solution& solution, const std::vector<bool>& receivers = {});
 
 /// How two tables of the same patches differ in radiosity, over all bands.
 struct Comparison {

@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "cli/terminal.h"
 #include "output/output_file.h"
+#include "parallux/changes.h"
 #include "parallux/error.h"
 
 namespace parallux {
@@ -95,7 +96,9 @@ std::string summary(const FactorsOptions& options, const Factors& factors, const
 int find_factors(const FactorsOptions& options) {
     check_files(options);
     FactorRun run;
-    const Scene scene = load_scene(options.scene, options.load);
+    Scene scene = load_scene(options.scene, options.load);
+    if (!options.exclude.empty())
+        exclude_surfaces(scene, options.exclude);
     run.load_seconds = seconds_since_start();
     const Patches patches = make_patches(scene, options.patches);
     run.patches_seconds = seconds_since_start() - run.load_seconds;

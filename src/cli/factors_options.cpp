@@ -1,17 +1,13 @@
 #include "cli/factors_options.h"
 
-#include <functional>
-
-#include <CLI/CLI.hpp>
-
+#include "cli/option_group.h"
+#include "cli/sky_options.h"
 #include "cli/values.h"
 #include "vectors.h"
 
 namespace parallux {
 
 namespace {
-
-using Read = std::function<void(const std::string&)>;
 
 // Longer than any scene: a surface is one cell.
 constexpr double one_cell = 1e15;
@@ -30,29 +26,23 @@ std::filesystem::path parse_file(const std::string& option, const std::string& v
     refuse(option, value, "expected a name that ends in " + words);
 }
 
-// Adds options to one group of the help.
-struct Group {
-    CLI::App& app;
-    const char* name;
-
-    CLI::Option* operator()(const char* option, const char* value, const char* help,
-                            Read read) const {
-        return app.add_option_function<std::string>(option, std::move(read), help)
-            ->type_name(value)
-            ->group(name);
-    }
-};
-
 void add_scene(CLI::App& app, FactorsOptions& o) {
     app.add_option("SCENE", o.scene, "glTF (.gltf, .glb), OBJ, STL or Parallux (.json) scene")
         ->required()
         ->type_name("");
-    Group{app, "Scene"}("--scale", "X", "Metres per unit of the scene file [1]",
-                        [&o](auto& v) { o.load.scale = parse_positive("--scale", v); });
+    const OptionGroup option{app, "Scene"};
+    option("--scale", "X", "Metres per unit of the scene file [1]",
+           [&o](auto& v) { o.load.scale = parse_positive("--scale", v); });
+    option("--periodic", "X,Y",
+           "The scene repeats without end after so many of its units along x and y (z "
+           "where y is up); 0: not that way",
+           [&o](auto& v) { o.load.period = parse_period("--periodic", v); });
+    option("--exclude", "NAMES", "Leave out objects or materials of these names: a,b*",
+           [&o](auto& v) { o.exclude = parse_names("--exclude", v); });
 }
 
 void add_outputs(CLI::App& app, FactorsOptions& o) {
-    const Group option{app, "Outputs"};
+    const OptionGroup option{app, "Outputs"};
     option("-o,--output", "F.mtx|F.npz",
            "Matrix Market, or NumPy as scipy.sparse.load_npz reads it; F.areas.csv beside it",
            [&o](auto& v) {
@@ -72,7 +62,7 @@ void add_outputs(CLI::App& app, FactorsOptions& o) {
 }
 
 void add_nodes(CLI::App& app, FactorsOptions& o) {
-    const Group option{app, "Between"};
+    const OptionGroup option{app, "Between"};
     option("--between", "B", "patches, surfaces, objects or materials [patches]", [&o](auto& v) {
         o.factors.between = parse_choice<FactorNodes>("--between", v,
                                                       {{"patches", FactorNodes::patches},
@@ -111,7 +101,7 @@ void add_nodes(CLI::App& app, FactorsOptions& o) {
 
 void add_lines(CLI::App& app, FactorsOptions& o) {
     FactorSettings& s = o.factors;
-    const Group option{app, "Lines"};
+    const OptionGroup option{app, "Lines"};
     option("--bundles", "D", "Directions of parallel lines [4096]",
            [&s](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
@@ -128,7 +118,7 @@ void add_lines(CLI::App& app, FactorsOptions& o) {
 }
 
 void add_run(CLI::App& app, FactorsOptions& o) {
-    const Group option{app, "Run"};
+    const OptionGroup option{app, "Run"};
     option("--threads", "T", "0: all [0]", [&o](auto& v) {
         o.factors.threads = static_cast<unsigned>(parse_count("--threads", v, 0, 4096));
     });

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "parallux/factors.h"
 
@@ -13,6 +15,7 @@ namespace parallux {
 struct FactorsOptions {
     std::filesystem::path scene;
     LoadSettings load;
+    std::vector<std::string> exclude;  ///< objects or materials
     PatchSettings patches;
     bool patches_asked = false;
     bool facets = false;  ///< one patch a triangle of the file, or parallelogram of a JSON scene

@@ -49,7 +49,7 @@ Json cameras(const Scene& scene) {
 }
 
 Json describe(const Scene& scene) {
-    static constexpr const char* skies[] = {"dark", "uniform", "gradient", "image"};
+    static constexpr const char* skies[] = {"dark", "uniform", "gradient", "image", "shaped"};
     double area = 0;
     std::uint64_t parallelograms = 0;
     for (const Surface& surface : scene.surfaces) {

@@ -1,5 +1,7 @@
 #include <functional>
+#include <optional>
 
+#include "cli/changes.h"
 #include "cli/factors.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
@@ -34,22 +36,37 @@ bool target_met(const SolveSettings& settings, const Solution& solution) {
 int solve_scene(const SolveOptions& options) {
     check_outputs(options);
     Scene scene = load_scene(options.scene, options.load);
+    change_scene(options, scene);
     check_camera(options, scene);
+    Measurements measured;
+    if (!options.sensors.empty())
+        measured.sensors = read_sensors(options.sensors, options.load.scale);
+    if (!options.receivers.empty())
+        measured.receivers = named_surfaces(scene, options.receivers, "--receivers");
     const double loaded = seconds_since_start();
     Patches patches = make_patches(scene, options.patches);
+    change_patches(options, patches);
     const double divided = seconds_since_start();
 
     keep_results();
     ProgressReport report(options.progress, options.quiet);
     Refresh refresh(options, scene, patches, report);
-    Solution solution = solve(scene, patches, options.solve, std::ref(report), refresh.preview());
+    std::optional<FluxMeter> meter;
+    if (!options.fluxes.empty())
+        meter.emplace(scene, patches, options.flux_unit);
+    Solution solution = solve(scene, patches, options.solve, std::ref(report),
+                              meter ? meter->preview() : refresh.preview());
     report.end();
+    if (meter)
+        measured.fluxes = meter->fluxes(solution);
     solution.seconds.load = loaded;
     solution.seconds.patches = divided - loaded;
 
-    write_outputs(options, scene, patches, solution);
+    write_outputs(options, scene, patches, solution, measured);
     if (!options.quiet)
         tell_summary(options, scene, patches, solution);
+    if (!options.quiet && meter)
+        print(describe_fluxes(measured.fluxes));
     if (interrupted()) {
         complain("parallux: interrupted; the outputs hold what was done until then");
         return exit_interrupted;

@@ -24,9 +24,19 @@ struct InfoOptions {
     double error = 0.01;  ///< relative RMS to give the lines for
 };
 
+/// What is changed of a scene before it is solved.
+struct SceneChanges {
+    std::filesystem::path materials;  ///< table of values by material; empty: none
+    std::uint32_t bands = 0;          ///< 0: as the scene or the table has
+    std::vector<std::string> exclude;
+    std::filesystem::path temperatures;  ///< empty: no long-wave exchange
+    double sky_temperature = 0;          ///< kelvin
+};
+
 struct SolveOptions {
     std::filesystem::path scene;
     LoadSettings load;
+    SceneChanges changes;
     PatchSettings patches;
     SolveSettings solve;
     PictureSettings picture;
@@ -37,11 +47,18 @@ struct SolveOptions {
     BakeSettings bake;
     LightmapSettings lightmap_settings;
     std::filesystem::path table, stats, lightmap;  ///< empty: not wanted
+    std::vector<std::string> receivers;            ///< of the table; empty: all
+    std::filesystem::path fluxes;                  ///< empty: not wanted
+    FluxUnit flux_unit = FluxUnit::object;
+    std::filesystem::path sensors, sensor_table;  ///< empty: none
+    SensorSettings sensing;
     ProgressMode progress = ProgressMode::automatic;
     bool quiet = false;
 
     /// Every file to be written.
     std::vector<std::filesystem::path> outputs() const;
+    /// Every file to be read.
+    std::vector<std::filesystem::path> inputs() const;
 };
 
 struct CompareOptions {

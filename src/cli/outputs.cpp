@@ -55,9 +55,12 @@ double seconds_since_start() {
 void check_outputs(const SolveOptions& options) {
     const std::vector<std::filesystem::path> files = options.outputs();
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (same_file(files[i], options.scene))
-            throw Error(Fault::usage,
-                        files[i].string() + ": is the scene itself; choose another output name");
+        for (const std::filesystem::path& input : options.inputs())
+            if (same_file(files[i], input))
+                throw Error(Fault::usage, files[i].string() +
+                                              (input == options.scene ? ": is the scene itself"
+                                                                      : ": is read from") +
+                                              "; choose another output name");
         for (std::size_t j = 0; j < i; ++j)
             if (same_file(files[i], files[j]))
                 throw Error(Fault::usage,
@@ -105,13 +108,25 @@ void write_bakes(const SolveOptions& options, const Scene& scene, const Patches&
 }
 
 void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,
-                   Solution& solution) {
+                   Solution& solution, const Measurements& measured) {
     const double before = seconds_since_start();
     Attempts attempt;
     if (!options.table.empty())
         attempt([&] {
             WritingFile guard;
-            write_table(options.table, scene, patches, solution);
+            write_table(options.table, scene, patches, solution, measured.receivers);
+        });
+    if (!options.fluxes.empty())
+        attempt([&] {
+            WritingFile guard;
+            write_fluxes(options.fluxes, measured.fluxes);
+        });
+    if (!options.sensor_table.empty())
+        attempt([&] {
+            const SensorReadings readings =
+                sense(scene, patches, solution, measured.sensors, options.sensing);
+            WritingFile guard;
+            write_sensors(options.sensor_table, measured.sensors, readings);
         });
     if (!options.images.empty())
         attempt([&] { write_images(options, scene, patches, solution); });

@@ -21,10 +21,17 @@ void write_images(const SolveOptions& options, const Scene& scene, const Patches
 void write_bakes(const SolveOptions& options, const Scene& scene, const Patches& patches,
                  const Solution& solution);
 
+/// What outputs need beside the solution.
+struct Measurements {
+    std::vector<bool> receivers;  ///< the surfaces of the table; empty: all
+    std::vector<Sensor> sensors;
+    Fluxes fluxes;
+};
+
 /// Writes all that is wanted, the statistics last and with the time that the others took. A file
 /// that cannot be written keeps none of the others back; the first failure is thrown at the end.
 void write_outputs(const SolveOptions& options, const Scene& scene, const Patches& patches,
-                   Solution& solution);
+                   Solution& solution, const Measurements& measured);
 
 /// Measures from the program's start, for Seconds.
 double seconds_since_start();

@@ -91,6 +91,20 @@ void tell_summary(const SolveOptions& options, const Scene& scene, const Patches
             complain("warning: " + warning);
 }
 
+std::string describe_fluxes(const Fluxes& fluxes) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << "fluxes   " << std::setprecision(6) << fluxes.leaving << " W net out of the scene";
+    if (fluxes.imbalance != 0)
+        text << ", " << std::setprecision(3) << fluxes.imbalance << " W";
+    if (fluxes.leaving_stderr > 0)
+        text << " ± " << std::setprecision(2) << fluxes.leaving_stderr << " W";
+    if (fluxes.imbalance != 0)
+        text << " before the errors were shared out";
+    text << '\n';
+    return text.str();
+}
+
 std::string describe_comparison(const Comparison& comparison) {
     std::ostringstream text;
     text.imbue(std::locale::classic());

@@ -10,6 +10,9 @@ namespace parallux {
 void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
                   const Solution& solution);
 
+/// A line on the balance of net fluxes.
+std::string describe_fluxes(const Fluxes& fluxes);
+
 /// Lines on how two tables differ.
 std::string describe_comparison(const Comparison& comparison);
 

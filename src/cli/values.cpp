@@ -92,4 +92,23 @@ std::pair<std::uint32_t, std::uint32_t> parse_size(const std::string& option,
     return {width, height};
 }
 
+std::vector<std::string> parse_names(const std::string& option, const std::string& value) {
+    std::vector<std::string> names(1);
+    for (char c : value)
+        if (c == ',')
+            names.emplace_back();
+        else
+            names.back() += c;
+    for (const std::string& name : names)
+        if (name.empty() || value.starts_with("--"))
+            refuse(option, value, "expected names with commas between them");
+    return names;
+}
+
+std::filesystem::path parse_output(const std::string& option, const std::string& value) {
+    if (value.empty() || value.starts_with("--"))
+        refuse(option, value, "expected a file name");
+    return value;
+}
+
 }  // namespace parallux

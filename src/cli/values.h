@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <utility>
@@ -33,6 +34,12 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& value);
 /// "640x480", or "640" with height 0.
 std::pair<std::uint32_t, std::uint32_t> parse_size(const std::string& option,
                                                    const std::string& value);
+
+/// "a,b*": names with commas between them, none empty.
+std::vector<std::string> parse_names(const std::string& option, const std::string& value);
+
+/// A file name, which an option's is not.
+std::filesystem::path parse_output(const std::string& option, const std::string& value);
 
 /// One of some words.
 template <class T>

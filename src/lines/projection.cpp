@@ -28,12 +28,12 @@ void check_spacing(double spacing, double radius) {
                                       "choose a larger --line-spacing");
 }
 
-Projector::Projector(const Scene& scene, const Patches& patches)
+Projector::Projector(const Scene& scene, const Patches& patches, Surfaces surfaces)
     : scene_(scene), patches_(patches) {
     LineSphere sphere = line_sphere(scene);
     centre_ = sphere.centre;
     radius_ = sphere.radius;
-    if (scene.surfaces.size() <= PlaneSides::most_surfaces)
+    if (surfaces == Surfaces::any && scene.surfaces.size() <= PlaneSides::most_surfaces)
         sides_ = std::make_shared<PlaneSides>(scene);
 }
 
@@ -92,7 +92,10 @@ void find_tiles(const Scene& scene, std::size_t begin, std::size_t end, Projecti
     for (std::size_t k = begin; k < end; ++k) {
         const std::uint32_t s =
             projection.order.empty() ? static_cast<std::uint32_t>(k) : projection.order[k];
-        const Rectangle r = rectangle_of(projection, scene.surfaces[s]);
+        Rectangle r = rectangle_of(projection, scene.surfaces[s]);
+        r = {std::max(r.left, projection.left),
+             std::min(r.right, projection.left + projection.columns),
+             std::max(r.top, projection.top), std::min(r.bottom, projection.top + projection.rows)};
         if (r.empty())
             continue;
         const std::int32_t x0 = (r.left - projection.left) >> column_bits;
@@ -110,19 +113,25 @@ void find_tiles(const Scene& scene, std::size_t begin, std::size_t end, Projecti
 
 }  // namespace
 
-void Projector::project(const Bundle& bundle, Projection& projection, unsigned threads) const {
+void Projector::project(const Bundle& bundle, Projection& projection, unsigned threads,
+                        const LineWindow* window) const {
     check_spacing(bundle.spacing, radius_);
     projection.bundle = bundle;
     projection.radius = radius_;
     const Extent extent = snap_corners(bundle, scene_, centre_, threads, projection);
-    projection.left = first_line(extent.left);
-    projection.top = first_line(extent.top);
-    projection.columns = std::max(0, first_line(extent.right) - projection.left);
-    projection.rows = std::max(0, first_line(extent.bottom) - projection.top);
+    LineWindow seen{first_line(extent.left), first_line(extent.right), first_line(extent.top),
+                    first_line(extent.bottom)};
+    if (window)
+        seen = {std::max(seen.left, window->left), std::min(seen.right, window->right),
+                std::max(seen.top, window->top), std::min(seen.bottom, window->bottom)};
+    projection.left = seen.left;
+    projection.top = seen.top;
+    projection.columns = std::max(0, seen.right - seen.left);
+    projection.rows = std::max(0, seen.bottom - seen.top);
     // Surfaces that are painted cover many lines: wide tiles cut them less. Where a tile may hold
-    // too many to be painted, it must not be wider than layers of hits.
+    // too many to be painted, or none is, it must not be wider than layers of hits.
     projection.tile_columns =
-        scene_.surfaces.size() <= BlockLists::most_views ? 128 : HitLayers::side;
+        sides_ && scene_.surfaces.size() <= BlockLists::most_views ? 128 : HitLayers::side;
     projection.tile_rows = most_tile_rows;
     projection.tiles_x =
         (projection.columns + projection.tile_columns - 1) / projection.tile_columns;

@@ -13,6 +13,10 @@ namespace {
 constexpr double same_area = 1e-6;
 
 void check_same_patch(const TableReader& a, const TableReader& b) {
+    if (a.patch() != b.patch())
+        a.fail("patch " + std::to_string(a.patch()) + ", but " + std::to_string(b.patch()) +
+               " in " + b.file().string() +
+               "; rows are missing, or the tables have other receivers");
     if (std::abs(a.area() - b.area()) > same_area * std::max(a.area(), b.area()) ||
         a.back() != b.back())
         a.fail("patch " + std::to_string(a.patch()) + " has another area or side in " +

@@ -70,6 +70,32 @@ Image screen_image(const Picture& picture, const PictureSettings& settings) {
     return image;
 }
 
+// What a screen needs, of the bands it is to show.
+Picture only(const Picture& picture, const std::vector<std::uint32_t>& bands) {
+    Picture shown;
+    shown.width = picture.width;
+    shown.height = picture.height;
+    shown.bands = static_cast<std::uint32_t>(bands.size());
+    shown.alpha = picture.alpha;
+    for (auto layer :
+         {&Picture::radiance, &Picture::display, &Picture::irradiance, &Picture::albedo})
+        for (std::size_t first = 0; first < (picture.*layer).size(); first += picture.bands)
+            for (std::uint32_t band : bands)
+                (shown.*layer).push_back((picture.*layer).at(first + band));
+    return shown;
+}
+
+// One band in grey, or three in colour; others have to be chosen.
+Image png_image(const std::filesystem::path& file, const Picture& picture,
+                const PictureSettings& settings) {
+    if (!settings.shown_bands.empty())
+        return screen_image(only(picture, settings.shown_bands), settings);
+    if (picture.bands != 1 && picture.bands != 3)
+        throw Error(Fault::usage, file.string() + ": PNG shows one band or three, not " +
+                                      std::to_string(picture.bands) + "; choose which");
+    return screen_image(picture, settings);
+}
+
 }  // namespace
 
 void write_picture(const std::filesystem::path& file, const Picture& picture,
@@ -85,8 +111,10 @@ void write_picture(const std::filesystem::path& file, const Picture& picture,
     OutputFile output(file);
     std::vector<unsigned char> bytes;
     try {
-        Image image = ending == ".exr" ? linear_image(picture) : screen_image(picture, settings);
+        Image image = ending == ".exr" ? linear_image(picture) : png_image(file, picture, settings);
         bytes = encode(ending, image);
+    } catch (const Error&) {
+        throw;
     } catch (const std::bad_alloc&) {
         throw Error(Fault::memory, file.string() + ": no memory to encode the picture");
     } catch (const std::exception& failure) {

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <string_view>
 
 #include "output/output_file.h"
+#include "output/row.h"
 #include "output/table_columns.h"
 #include "parallux/error.h"
 #include "parallux/patches.h"
@@ -23,64 +21,10 @@ constexpr std::size_t chunk = std::size_t{1} << 20;
 // So many places are less than what the solver has given back.
 constexpr std::size_t places_at_once = std::size_t{1} << 19;
 
-/// One row at a time, as text. std::to_chars never asks the locale for its decimal point.
-class Row {
-public:
-    explicit Row(std::string& text) : text_(text) {}
-
-    Row& number(double value) {
-        if (!std::isfinite(value))
-            throw Error(Fault::internal, "a table value is not finite; please report the scene");
-        separate();
-        if (value == 0) {  // common, and never "-0"
-            text_ += '0';
-            return *this;
-        }
-        char digits[32];
-        auto end =
-            std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 9);
-        text_.append(digits, end.ptr);
-        return *this;
-    }
-    Row& index(std::uint64_t value) {
-        separate();
-        char digits[24];
-        text_.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-        return *this;
-    }
-    /// Quoted as RFC 4180 asks where the text would otherwise break the row.
-    Row& word(std::string_view value) {
-        separate();
-        if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
-            text_ += value;
-            return *this;
-        }
-        text_ += '"';
-        for (char c : value)
-            text_.append(c == '"' ? 2 : 1, c);
-        text_ += '"';
-        return *this;
-    }
-    void end() {
-        text_ += '\n';
-        first_ = true;
-    }
-
-private:
-    void separate() {
-        if (!first_)
-            text_ += ',';
-        first_ = false;
-    }
-
-    std::string& text_;
-    bool first_ = true;
-};
-
 }  // namespace
 
 void write_table(const std::filesystem::path& file, const Scene& scene, const Patches& patches,
-                 const Solution& solution) {
+                 const Solution& solution, const std::vector<bool>& receivers) {
     const std::size_t bands = solution.bands, values = patches.count() * bands;
     const bool estimated = !solution.stderror.empty();
     if (patches.bands != bands || solution.radiosity.size() != values ||
@@ -99,6 +43,8 @@ void write_table(const std::filesystem::path& file, const Scene& scene, const Pa
             places = patch_places(scene, patches, patch,
                                   std::min(patch + places_at_once, patches.count()));
         const PatchPlace& place = places[patch % places_at_once];
+        if (!receivers.empty() && !receivers[place.surface])
+            continue;
         const Surface& surface = scene.surfaces.at(place.surface);
         row.index(patch).index(place.surface);
         row.word(scene.objects.at(surface.object));

@@ -109,9 +109,12 @@ bool TableReader::next() {
         if (!text && !absent)
             number(column);
     }
-    if (number(patch_column) != static_cast<double>(rows_))
-        fail("patch " + fields_[patch_column] + " instead of " + std::to_string(rows_) +
-             "; rows are missing or out of order");
+    const std::uint64_t least = rows_ == 0 ? 0 : patch_ + 1;
+    const double patch = number(patch_column);
+    if (!(patch >= static_cast<double>(least) && patch < 0x1p32) || patch != std::floor(patch))
+        fail("patch " + fields_[patch_column] + " instead of " + std::to_string(least) +
+             " or one after it; rows are out of order");
+    patch_ = static_cast<std::uint64_t>(patch);
     const std::string& side = fields_[side_column];
     if (side != "front" && side != "back")
         fail("side is neither front nor back: " + side.substr(0, 40));

@@ -19,7 +19,8 @@ public:
 
     const std::filesystem::path& file() const { return file_; }
     std::uint32_t bands() const { return bands_; }
-    std::uint64_t patch() const { return rows_ - 1; }
+    /// Its number; tables of receivers leave some out.
+    std::uint64_t patch() const { return patch_; }
     double area() const { return area_; }
     bool back() const { return back_; }
     double radiosity(std::uint32_t band) const { return radiosity_[band]; }
@@ -37,7 +38,7 @@ private:
     std::filebuf bytes_;
     std::uint64_t line_ = 1;         // of the bytes read so far
     std::uint64_t record_line_ = 1;  // where the present row begins
-    std::uint64_t rows_ = 0;
+    std::uint64_t rows_ = 0, patch_ = 0;
     std::vector<std::string> names_, fields_;
     std::uint32_t bands_ = 0;
     double area_ = 0;

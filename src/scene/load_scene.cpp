@@ -6,6 +6,7 @@
 #include "scene/input.h"
 #include "scene/loaders.h"
 #include "scene/obj.h"
+#include "scene/sky_models.h"
 
 namespace parallux {
 namespace {
@@ -86,6 +87,17 @@ Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings
         input_error(file, "",
                     "nothing with area in it (" + std::to_string(scene.triangles) +
                         " triangles); a scene needs surfaces");
+    if (settings.period[0] > 0 || settings.period[1] > 0) {
+        // Along x, and along y or, where y is up, z.
+        const int second = std::abs(scene.sky.up.y) > 0.5 ? 2 : 1;
+        scene.period = {glm::dvec3(0), glm::dvec3(0)};
+        scene.period[0].x = settings.period[0] * settings.scale;
+        scene.period[1][second] = settings.period[1] * settings.scale;
+        if (auto wrong = settle_period(scene))
+            throw Error(Fault::usage, printable(file.string(), 400) + ": " + *wrong);
+    }
+    if (auto wrong = put_sky(scene, settings.sky))
+        throw Error(Fault::usage, printable(file.string(), 400) + ": " + *wrong);
     if (scene.zero_area > 0)
         scene.warnings.push_back(std::to_string(scene.zero_area) + " of " +
                                  std::to_string(scene.triangles) +

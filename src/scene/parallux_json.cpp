@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "scene/input.h"
-#include "scene/textures.h"
 
 namespace parallux {
 namespace {
@@ -24,7 +23,7 @@ void read_parallux(SceneBuilder& builder, const Json& json) {
 ParalluxReader::ParalluxReader(SceneBuilder& builder, const JsonView& root)
     : builder_(builder), scene_(builder.scene()), root_(root) {
     root_.only({"parallux", "comment", "$schema", "bands", "up", "scale", "materials", "surfaces",
-                "meshes", "lights", "sky", "cameras", "line_sphere"});
+                "meshes", "lights", "sky", "cameras", "line_sphere", "periodic"});
     if (root_.at("parallux").count(1000000) != 1)
         root_.at("parallux").fail("only version 1 is read");
     scene_.bands = static_cast<std::uint32_t>(root_.count_or("bands", 3, max_bands));
@@ -39,6 +38,7 @@ void ParalluxReader::read() {
     read_surfaces();
     read_lights();
     read_sky();
+    read_period();
     read_cameras();
     if (auto radius = root_.find("line_sphere"))
         scene_.line_sphere = radius->number(1e-15, 1e15) * scale_ * builder_.settings().scale;
@@ -130,42 +130,6 @@ void ParalluxReader::read_lights() {
         if (auto range = json.find("range"))
             light.range = range->number(0, 1e15) * scale;
         scene_.lights.push_back(std::move(light));
-    }
-}
-
-void ParalluxReader::read_sky() {
-    Sky& sky = scene_.sky;
-    sky.up = up_;
-    auto json = root_.find("sky");
-    if (!json)
-        return;
-    json->only({"comment", "uniform", "gradient", "image", "scale", "north"});
-    if (json->has("uniform") + json->has("gradient") + json->has("image") != 1)
-        json->fail("must have one of uniform, gradient and image");
-    if (auto north = json->find("north"))
-        sky.north = direction(*north);
-    else if (std::abs(glm::dot(sky.north, up_)) > 0.999)
-        sky.north = {0, 0, -1};  // with y up
-    if (auto uniform = json->find("uniform")) {
-        sky.kind = Sky::Kind::uniform;
-        sky.zenith = sky.horizon = sky.ground = spectrum(*uniform, 0, 1e15);
-    } else if (auto gradient = json->find("gradient")) {
-        gradient->only({"comment", "zenith", "horizon", "ground"});
-        sky.kind = Sky::Kind::gradient;
-        sky.zenith = spectrum(gradient->at("zenith"), 0, 1e15);
-        sky.horizon = spectrum(gradient->at("horizon"), 0, 1e15);
-        if (auto ground = gradient->find("ground"))
-            sky.ground = spectrum(*ground, 0, 1e15);
-    } else {
-        JsonView image = json->at("image");
-        if (scene_.bands != 3)
-            image.fail("an image has three bands; give uniform or gradient per band");
-        auto file = resolve_below(scene_.file, image.path(), image.text());
-        sky.kind = Sky::Kind::image;
-        sky.image = decode_picture(file, "", read_file(file), max_texels);
-        sky.image.name = printable(image.text());
-        if (auto scale = json->find("scale"))
-            sky.scale = static_cast<float>(scale->number(0, 1e15));
     }
 }
 

@@ -35,9 +35,14 @@ private:
     void read_materials();
     std::uint32_t material(const JsonView& json) const;
     void read_lights();
-    void read_sky();
     void read_cameras();
     glm::dvec3 direction(const JsonView& json) const;
+
+    // parallux_sky.cpp: what lies around it
+    void read_sky();
+    void read_period();
+    bool read_drawn_sky(const JsonView& json);
+    SkySettings read_sky_model(const JsonView& json) const;
 
     // parallux_surfaces.cpp: its geometry
     void read_surfaces();

@@ -185,6 +185,8 @@ void ParalluxReader::read_mesh(const JsonView& json) {
         name.fail("must be a .gltf, .glb, .obj or .stl file");
     LoadSettings settings = builder_.settings();
     settings.scale = 1;
+    settings.sky = {};  // which is this scene's, as is
+    settings.period = {0, 0};
     Scene mesh = load_scene(file, settings);
     double scale = json.has("scale") ? json.at("scale").number(1e-12, 1e12) : 1;
     glm::dvec3 translate = json.has("translate") ? json.at("translate").vector() : glm::dvec3(0);

@@ -49,7 +49,31 @@ glm::vec3 image_radiance(const Sky& sky, const glm::dvec3& direction) {
            texture_at(sky.image, glm::vec2(0.5 + azimuth / (2 * pi), polar / pi), Wrap::clamp_v);
 }
 
+// The lowest of the 145 places of the sky that such shapes were fitted to stand at 6°.
+constexpr double lowest_fitted = 0.104528;
+
+double gradation(const SkyShape& s, double height) {
+    return 1 + s.a * std::exp(s.b / std::max(height, s.b > 0 ? lowest_fitted : 1e-9));
+}
+
 }  // namespace
+
+double SkyShape::relative(double height, double cos_to_sun) const {
+    if (height < 0)
+        return 0;
+    const double cosine = std::clamp(cos_to_sun, -1.0, 1.0), angle = std::acos(cosine);
+    const double indicatrix = 1 + c * (std::exp(d * angle) - offset) + e * cosine * cosine;
+    const double value = std::max(0.0, gradation(*this, height)) * std::max(0.0, indicatrix);
+    return power == 1 ? value : std::pow(value, power);
+}
+
+double SkyShape::bound() const {
+    // Both factors are monotone, but for cos² χ.
+    const double phi = std::max({0.0, gradation(*this, 0), gradation(*this, 1)});
+    const double near = c * (1 - offset), far = c * (std::exp(d * pi) - offset);
+    const double f = std::max(0.0, 1 + std::max(near, far) + std::max(e, 0.0));
+    return std::pow(phi * f, power);
+}
 
 glm::vec3 texture_at(const Texture& t, glm::vec2 uv, Wrap wrap) {
     if (t.texels.empty())
@@ -72,6 +96,14 @@ Spectrum Sky::radiance(const glm::dvec3& direction) const {
             return ground;
         for (std::size_t b = 0; b < max_bands; ++b)
             result[b] = glm::mix(horizon[b], zenith[b], std::min(height, 1.0f));
+    }
+    if (kind == Kind::shaped) {
+        const double height = glm::dot(direction, up);
+        if (height < 0)
+            return ground;
+        const double relative = shape.relative(height, glm::dot(direction, shape.sun));
+        for (std::size_t b = 0; b < max_bands; ++b)
+            result[b] = static_cast<float>(relative * static_cast<double>(zenith[b]));
     }
     if (kind == Kind::image) {
         glm::vec3 seen = image_radiance(*this, direction);

@@ -1,11 +1,15 @@
 #include "solve/light_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
+#include "lines/directions.h"
 #include "parallel.h"
 #include "patches/patch_values.h"
+#include "solve/far_shadow.h"
 
 namespace parallux {
 
@@ -25,30 +29,85 @@ double smooth_cone(const Light& light, double cosine) {
     return t * t;
 }
 
-// W/m² per unit of intensity that a light brings to a point of a surface facing `normal`.
-double arrives(const RayScene& rays, const Light& light, const glm::dvec3& point,
-               const glm::dvec3& normal, std::uint32_t surface, double far) {
-    if (light.kind == Light::Kind::directional) {
-        double cosine = -glm::dot(normal, light.direction);
-        if (cosine <= 0 || rays.blocked(point, point - far * light.direction, surface))
-            return 0;
-        return cosine;
+// Of the disc that a light comes from, as it is seen from afar: places, in its radius. A spiral of
+// equal areas; the four of each point of a cell lie in four rings.
+constexpr int disc_places = 4;
+
+glm::dvec2 disc_place(int point, int place) {
+    constexpr int count = points_a_side * points_a_side * disc_places;
+    const int k = place * points_a_side * points_a_side + point;
+    const double radius = std::sqrt((k + 0.5) / count), angle = k * pi * (3 - std::sqrt(5.0));
+    return radius * glm::dvec2(std::cos(angle), std::sin(angle));
+}
+
+// A surface of a cell, as light finds it.
+struct Place {
+    const RayScene& rays;
+    glm::dvec3 point, normal;
+    std::uint32_t surface;
+    int number;  // of the point in its cell
+    const FarShadow& shadow;
+
+    bool sees(const glm::dvec3& toward) const { return !shadow.blocked(point, toward, surface); }
+};
+
+// W/m² per W/m² across its direction of a light from far away.
+double from_afar(const Place& place, const Light& light) {
+    const glm::dvec3 middle = -light.direction;
+    const double cosine = glm::dot(place.normal, middle), sine = std::sin(light.half_angle);
+    if (cosine <= -sine)
+        return 0;
+    if (light.half_angle == 0)
+        return place.sees(middle) ? cosine : 0;
+    glm::dvec3 x, y;
+    frame_across(middle, x, y);
+    double sum = 0;
+    for (int k = 0; k < disc_places; ++k) {
+        // Even in the disc's projection along its axis, so that a place stands for an equal share
+        // of what crosses a plane across it: ∫ L cos ψ dω.
+        const glm::dvec2 offset = sine * disc_place(place.number, k);
+        const double along = std::sqrt(1 - glm::dot(offset, offset));
+        const glm::dvec3 toward = along * middle + offset.x * x + offset.y * y;
+        // A disc all above the surface brings what its middle would, exactly.
+        const double share =
+            cosine >= sine ? cosine : std::max(0.0, glm::dot(place.normal, toward)) / along;
+        if (share > 0 && place.sees(toward))
+            sum += share;
     }
-    glm::dvec3 to_light = light.position - point;
+    return sum / disc_places;
+}
+
+// W/m² per unit of intensity that a light brings to a place.
+double arrives(const Place& place, const Light& light) {
+    if (light.kind == Light::Kind::directional)
+        return from_afar(place, light);
+    glm::dvec3 to_light = light.position - place.point;
     double square = glm::dot(to_light, to_light);
     double distance = std::sqrt(square);
     if (distance == 0 || (light.range > 0 && distance > light.range))
         return 0;
-    double cosine = glm::dot(normal, to_light) / distance;
+    double cosine = glm::dot(place.normal, to_light) / distance;
     double strength = 1;
     if (light.kind == Light::Kind::spot)
         strength = smooth_cone(light, -glm::dot(light.direction, to_light) / distance);
-    if (cosine <= 0 || strength <= 0 || rays.blocked(point, light.position, surface))
+    if (cosine <= 0 || strength <= 0 ||
+        place.rays.blocked(place.point, light.position, place.surface))
         return 0;
     return strength * cosine / square;
 }
 
 }  // namespace
+
+double light_arrives(const RayScene& rays, const FarShadow& shadow, const Light& light,
+                     const glm::dvec3& point, const glm::dvec3& normal, std::uint32_t surface) {
+    // All places of a disc; without one, all are the same.
+    const bool disc = light.kind == Light::Kind::directional && light.half_angle > 0;
+    const int numbers = disc ? points_a_side * points_a_side : 1;
+    double sum = 0;
+    for (int number = 0; number < numbers; ++number)
+        sum += arrives({rays, point, normal, surface, number, shadow}, light);
+    return sum / numbers;
+}
 
 void add_light_points(const Run& run, DirectLight& direct) {
     const Scene& scene = run.scene;
@@ -56,8 +115,7 @@ void add_light_points(const Run& run, DirectLight& direct) {
     if (scene.lights.empty())
         return;
     std::uint32_t bands = patches.bands;
-    Bounds bounds = scene_bounds(scene);
-    double far = 2 * glm::distance(bounds.low, bounds.high);
+    const FarShadow shadow(*run.rays, scene);
     parallel_for(
         run.plan.threads, scene.surfaces.size(), 16,
         [&](std::size_t begin, std::size_t end, unsigned worker) {
@@ -84,10 +142,11 @@ void add_light_points(const Run& run, DirectLight& direct) {
                             }
                             glm::dvec3 point = surface_point(scene, surface, cell.u0 + a * cell.du,
                                                              cell.v0 + b * cell.dv);
+                            const Place place{
+                                *run.rays, point, normal, static_cast<std::uint32_t>(s), k, shadow};
                             for (const Light& light : scene.lights) {
-                                double flux = arrives(*run.rays, light, point, normal,
-                                                      static_cast<std::uint32_t>(s), far) *
-                                              cell_area / (points_a_side * points_a_side);
+                                double flux = arrives(place, light) * cell_area /
+                                              (points_a_side * points_a_side);
                                 for (std::uint32_t band = 0; flux > 0 && band < bands; ++band)
                                     watts[band] += flux * light.intensity[band];
                             }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "solve/pass.h"
 
@@ -35,7 +36,9 @@ LineSweep::~LineSweep() = default;
 void LineSweep::bundles(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
     // Of large scenes, a bundle is work for all threads, and one projection memory enough.
     constexpr std::size_t many_surfaces = 1 << 13;
-    if (run_.scene.surfaces.size() > many_surfaces)
+    if (is_periodic(run_.scene))
+        repeated(lattice, first, count);
+    else if (run_.scene.surfaces.size() > many_surfaces)
         one_by_one(lattice, first, count);
     else if (count >= 4 * run_.plan.threads && !partition_)
         whole_bundles(lattice, first, count);
@@ -128,12 +131,47 @@ void LineSweep::each_tile(std::size_t tiles, Follow&& follow) {
 void LineSweep::follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
     Buffers& buffers = buffers_[worker];
     projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
+    exchange_tile(projection.bundle.direction, worker);
+}
+
+// Bundles through a scene that repeats: each has copies of its own.
+void LineSweep::repeated(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
+    auto follow = [&](const PeriodicBundle& bundle, Projector::Workspace& workspace,
+                      std::size_t tile, unsigned worker) {
+        bundle.pairs(tile, workspace, buffers_[worker].lists, buffers_[worker].pairs);
+        exchange_tile(bundle.direction(), worker);
+    };
+    if (!partition_) {
+        parallel_for(run_.plan.threads, count, 1,
+                     [&](std::size_t begin, std::size_t end, unsigned worker) {
+                         for (std::size_t k = begin; k < end; ++k) {
+                             const PeriodicBundle bundle(run_.scene, run_.patches,
+                                                         make_bundle(lattice, first + k));
+                             const auto workspace = bundle.make_workspace();
+                             for (std::size_t tile = 0; tile < bundle.tiles(); ++tile)
+                                 follow(bundle, *workspace, tile, worker);
+                         }
+                     });
+        return;
+    }
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const PeriodicBundle bundle(run_.scene, run_.patches, make_bundle(lattice, first + k));
+        std::vector<std::shared_ptr<Projector::Workspace>> workspaces(run_.plan.threads);
+        each_tile(bundle.tiles(), [&](std::size_t tile, unsigned worker) {
+            if (!workspaces[worker])
+                workspaces[worker] = bundle.make_workspace();
+            follow(bundle, *workspaces[worker], tile, worker);
+        });
+    }
+}
+
+void LineSweep::exchange_tile(const glm::dvec3& direction, unsigned worker) {
+    Buffers& buffers = buffers_[worker];
     if (ways_ && ways_->keeping())
-        ways_->keep(buffers.pairs, std::bit_cast<std::uint64_t>(projection.bundle.offset_x),
-                    worker);
+        ways_->keep(buffers.pairs, std::bit_cast<std::uint64_t>(direction.x), worker);
     SkyQuanta sky;
     if (sky_ > 0)
-        sky = sky_quanta(run_.scene, sky_, projection.bundle.direction);
+        sky = sky_quanta(run_.scene, sky_, direction);
     if (partition_)
         partition_->put(worker, buffers.pairs, state_, direction_, sky_ > 0 ? &sky : nullptr,
                         run_.banks.totals(worker));

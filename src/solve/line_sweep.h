@@ -37,6 +37,8 @@ private:
     template <class Follow>
     void each_tile(std::size_t tiles, Follow&& follow);
     void follow_tile(const Projection& projection, std::size_t tile, unsigned worker);
+    void repeated(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count);
+    void exchange_tile(const glm::dvec3& direction, unsigned worker);
 
     const Run& run_;
     const TransferState& state_;

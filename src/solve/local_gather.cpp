@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "random.h"
 #include "solve/emitters.h"
@@ -118,7 +119,8 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
                                       PassResult& pass) {
     const Plan& plan = run.plan;
     const Patches& patches = run.patches;
-    if (!run.rays || plan.gathering == 0 || !pass.whole)
+    // Local rays know nothing of a scene's copies.
+    if (!run.rays || plan.gathering == 0 || !pass.whole || is_periodic(run.scene))
         return {};
     const double lines_a_bundle = pi * plan.sphere.radius * plan.sphere.radius / plan.cell;
     const auto most =

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "reference/matrix.h"
@@ -70,6 +71,7 @@ struct Footprint {
         return all_banks() + direct() + groups() + count * (bands * 8 + lanes(bands) * 4) +
                keeping_bytes(count, bands) + (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
+               (banks < threads ? 1 : threads) * copies_bytes(scene) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
     // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "solve/memory.h"
@@ -27,10 +28,30 @@ void check(const SolveSettings& settings) {
                                       method_name(settings.method) + "; give --lines");
 }
 
+// What knows of one tile alone.
+void check_periodic(const Scene& scene, const SolveSettings& settings) {
+    if (settings.method != Method::bundles)
+        throw Error(Fault::usage, "a periodic scene is solved by --method bundles alone");
+    const bool shoots = settings.first_shot == FirstShot::rays ||
+                        settings.first_shot == FirstShot::exact || settings.shots > 0;
+    if (shoots)
+        throw Error(Fault::usage,
+                    "a periodic scene has no local shots; leave --first-shot and "
+                    "--shots away");
+    for (const Light& light : scene.lights)
+        if (light.kind != Light::Kind::directional)
+            throw Error(Fault::usage, "light \"" + light.name +
+                                          "\": a periodic scene has lights from far away alone, "
+                                          "or surfaces that emit");
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
     check(settings);
+    const bool periodic = is_periodic(scene);
+    if (periodic)
+        check_periodic(scene, settings);
     check_memory(scene, patches, settings);
     Plan plan;
     plan.threads = thread_count(settings.threads);
@@ -39,11 +60,18 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     for (float reflectance : patches.reflectance)
         plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
     plan_lines(patches, settings, plan);
+    check_copies(scene, plan.sphere.radius, plan.spacing);
     // All rounds' groups add up their quanta.
     const double times = plan.groups * (settings.target_error > 0 ? most_rounds : 1);
     plan.watts_per_quantum =
         quantum(times * power_bound(scene, patches, plan.sphere), plan.highest_reflectance);
-    plan_shots(scene, patches, settings, plan);
+    if (periodic) {
+        SolveSettings without = settings;
+        without.first_shot = FirstShot::off;
+        plan_shots(scene, patches, without, plan);
+    } else {
+        plan_shots(scene, patches, settings, plan);
+    }
     return plan;
 }
 

@@ -13,6 +13,9 @@ double sky_bound(const Sky& sky, std::uint32_t band) {
             return sky.zenith[band];
         case Sky::Kind::gradient:
             return std::max({sky.zenith[band], sky.horizon[band], sky.ground[band]});
+        case Sky::Kind::shaped:
+            return std::max(sky.zenith[band] * sky.shape.bound(),
+                            static_cast<double>(sky.ground[band]));
         case Sky::Kind::image:
             break;
     }

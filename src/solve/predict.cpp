@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lines/periodic.h"
+#include "parallux/error.h"
+
 namespace parallux {
 
 namespace {
@@ -27,6 +30,7 @@ Sky squared(Sky sky) {
     for (Spectrum* radiance : {&sky.zenith, &sky.horizon, &sky.ground})
         for (float& value : radiance->value)
             square(value);
+    sky.shape.power *= 2;
     for (glm::vec3& texel : sky.image.texels)
         for (int k = 0; k < 3; ++k)
             square(texel[k]);
@@ -45,6 +49,9 @@ double Prediction::lines_for(double relative_rms) const {
 
 Prediction predict_error(const Scene& scene, const Patches& patches,
                          const SolveSettings& settings) {
+    if (is_periodic(scene))
+        throw Error(Fault::usage,
+                    "--predict is of independent lines, which a periodic scene does not have");
     const std::size_t values = patches.reflectance.size();
     const std::vector<float> all = irradiance(scene, patches, settings);
 

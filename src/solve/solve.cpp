@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "reference/matrix.h"
 #include "reference/particles.h"
@@ -121,6 +122,8 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     // The groups' mean is the result, their spread its error.
     watch.lap();
     Solution solution = estimate.solution(plan);
+    if (const std::string tilted = tilt_warning(scene); !tilted.empty())
+        solution.warnings.push_back(tilted);
     seconds.gather += watch.lap();
     solution.seconds = seconds;
     return solution;

@@ -6,7 +6,9 @@
 
 #include <unistd.h>
 
+#include "lines/periodic.h"
 #include "parallux/error.h"
+#include "view_factors/pair_sweep.h"
 
 namespace parallux {
 
@@ -31,6 +33,7 @@ FactorMemory::FactorMemory(const Scene& scene, const Patches& patches, std::size
             threads * (std::uint64_t(4) << 20) +
             scene.surfaces.size() * (sizeof(Surface) + sizeof(SurfaceGrid) + 64) +
             scene.positions.size() * (sizeof(glm::dvec3) + 12);
+    base_ += PairSweep::bundles_at_once(scene, threads) * copies_bytes(scene);
     base_ += patches.count() * (8 + patches.bands * 8 + 4 + sizeof(PatchPlace));
     base_ += nodes * (sizeof(FactorNode) + 16 * 8) + nodes * outsides * (4 * 8 + 2 * 8);
 }

@@ -1,7 +1,10 @@
 #include "view_factors/pair_sweep.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 
 namespace parallux {
@@ -19,12 +22,14 @@ constexpr std::size_t many_surfaces = 1 << 13;
 struct alignas(64) PairSweep::Buffers {
     std::shared_ptr<Projector::Workspace> workspace;
     TilePairs pairs;
+    IntersectionLists lists;  // of scenes that repeat
     LineCounts counts;
 };
 
 PairSweep::PairSweep(const Scene& scene, const Patches& patches, const NodeMap& nodes,
                      const SkyDome& dome, unsigned threads, PairCounts& counts)
     : scene_(scene),
+      patches_(patches),
       nodes_(nodes),
       dome_(dome),
       threads_(threads),
@@ -37,11 +42,47 @@ PairSweep::PairSweep(const Scene& scene, const Patches& patches, const NodeMap& 
 
 PairSweep::~PairSweep() = default;
 
-std::uint32_t PairSweep::at_once() const {
-    return scene_.surfaces.size() > many_surfaces ? 1 : std::max(16u, 4 * threads_);
+std::uint32_t PairSweep::bundles_at_once(const Scene& scene, unsigned threads) {
+    if (scene.surfaces.size() > many_surfaces)
+        return 1;
+    return is_periodic(scene) ? threads : std::max(16u, 4 * threads);
 }
 
 void PairSweep::bundles(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
+    if (is_periodic(scene_))
+        repeated(lattice, first, count);
+    else
+        one_tile(lattice, first, count);
+    counts_.apply(threads_);
+    take_up();
+}
+
+// Calls follow(bundle, tile, worker) for all tiles of all bundles, as many at once as the buffers
+// are to hold.
+template <class Follow>
+void PairSweep::in_rounds(const std::vector<std::size_t>& tiles, Follow&& follow) {
+    std::vector<std::size_t> before(tiles.size() + 1, 0);
+    std::partial_sum(tiles.begin(), tiles.end(), before.begin() + 1);
+    for (std::size_t done = 0; done < before.back();) {
+        const double room = entries_a_tile_ > 0 ? most_entries / entries_a_tile_ : 64;
+        const std::size_t round =
+            std::min(before.back() - done, static_cast<std::size_t>(std::clamp(room, 1.0, 1e6)));
+        parallel_for(threads_, round, 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+            for (std::size_t tile = done + begin; tile < done + end; ++tile) {
+                const auto k = static_cast<std::size_t>(
+                    std::upper_bound(before.begin(), before.end(), tile) - before.begin() - 1);
+                follow(k, tile - before[k], worker);
+            }
+        });
+        done += round;
+        const std::uint64_t held = counts_.buffered();
+        entries_a_tile_ = std::max(static_cast<double>(held) / static_cast<double>(round), 1.0);
+        if (held > most_entries / 2)
+            counts_.apply(threads_);
+    }
+}
+
+void PairSweep::one_tile(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
     projections_.resize(std::max<std::size_t>(projections_.size(), count));
     if (count == 1)
         projector_.project(make_bundle(lattice, first), projections_[0], threads_);
@@ -50,37 +91,42 @@ void PairSweep::bundles(const BundleSettings& lattice, std::uint64_t first, std:
             for (std::size_t k = begin; k < end; ++k)
                 projector_.project(make_bundle(lattice, first + k), projections_[k]);
         });
-    std::vector<std::size_t> before(count + 1, 0);
+    std::vector<std::size_t> tiles;
     for (std::uint32_t k = 0; k < count; ++k)
-        before[k + 1] = before[k] + projections_[k].tiles();
-    auto follow = [&](std::size_t tile, unsigned worker) {
-        const std::size_t k = static_cast<std::size_t>(
-            std::upper_bound(before.begin(), before.end(), tile) - before.begin() - 1);
-        follow_tile(projections_[k], tile - before[k], worker);
-    };
-    // As many tiles at once as the buffers are to hold.
-    for (std::size_t done = 0; done < before.back();) {
-        const double room = entries_a_tile_ > 0 ? most_entries / entries_a_tile_ : 64;
-        const std::size_t round =
-            std::min(before.back() - done, static_cast<std::size_t>(std::clamp(room, 1.0, 1e6)));
-        parallel_for(threads_, round, 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
-            for (std::size_t tile = done + begin; tile < done + end; ++tile)
-                follow(tile, worker);
-        });
-        done += round;
-        const std::uint64_t held = counts_.buffered();
-        entries_a_tile_ = std::max(static_cast<double>(held) / static_cast<double>(round), 1.0);
-        if (held > most_entries / 2)
-            counts_.apply(threads_);
-    }
-    counts_.apply(threads_);
-    take_up();
+        tiles.push_back(projections_[k].tiles());
+    in_rounds(tiles, [&](std::size_t k, std::size_t tile, unsigned worker) {
+        Buffers& buffers = buffers_[worker];
+        projector_.pairs(projections_[k], tile, *buffers.workspace, buffers.pairs);
+        count_tile(projections_[k].bundle.direction, worker);
+    });
 }
 
-void PairSweep::follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
+// Bundles through a scene that repeats: a line joins nodes of one tile by way of any copies.
+void PairSweep::repeated(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
+    std::vector<std::unique_ptr<PeriodicBundle>> bundles(count);
+    parallel_for(threads_, count, 1, [&](std::size_t begin, std::size_t end, unsigned) {
+        for (std::size_t k = begin; k < end; ++k)
+            bundles[k] =
+                std::make_unique<PeriodicBundle>(scene_, patches_, make_bundle(lattice, first + k));
+    });
+    std::vector<std::size_t> tiles;
+    for (const auto& bundle : bundles)
+        tiles.push_back(bundle->tiles());
+    // A workspace is of one bundle; workers go through the bundles in turn.
+    std::vector<std::size_t> current(threads_, count);
+    std::vector<std::shared_ptr<Projector::Workspace>> workspaces(threads_);
+    in_rounds(tiles, [&](std::size_t k, std::size_t tile, unsigned worker) {
+        if (std::exchange(current[worker], k) != k)
+            workspaces[worker] = bundles[k]->make_workspace();
+        Buffers& buffers = buffers_[worker];
+        bundles[k]->pairs(tile, *workspaces[worker], buffers.lists, buffers.pairs);
+        count_tile(bundles[k]->direction(), worker);
+    });
+}
+
+void PairSweep::count_tile(const glm::dvec3& direction, unsigned worker) {
     Buffers& buffers = buffers_[worker];
-    TilePairs& pairs = buffers.pairs;
-    projector_.pairs(projection, tile, *buffers.workspace, pairs);
+    const TilePairs& pairs = buffers.pairs;
     const std::uint32_t* node = nodes_.of_patch.data();
     // Neighbouring lines often join the same two: they are put together.
     for (std::size_t k = 0; k < pairs.from.count;) {
@@ -100,8 +146,8 @@ void PairSweep::follow_tile(const Projection& projection, std::size_t tile, unsi
                         static_cast<std::uint32_t>(k - begin));
         }
     };
-    leave(pairs.last, dome_.part(projection.bundle.direction));
-    leave(pairs.first, dome_.part(-projection.bundle.direction));
+    leave(pairs.last, dome_.part(direction));
+    leave(pairs.first, dome_.part(-direction));
     leave(pairs.into_backs, dome_.count() + 1);
     leave(pairs.from_backs, dome_.count() + 1);
 

@@ -21,17 +21,24 @@ public:
 
     /// Follows bundles first … first + count - 1 of a lattice. All is taken up at its end.
     void bundles(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count);
-    /// Bundles that are worth to be followed at once.
-    std::uint32_t at_once() const;
+    /// Bundles that are worth to be followed at once; where the scene repeats, each has copies of
+    /// its own.
+    static std::uint32_t bundles_at_once(const Scene& scene, unsigned threads);
+    std::uint32_t at_once() const { return bundles_at_once(scene_, threads_); }
 
     const LineCounts& line_counts() const { return line_counts_; }
 
 private:
     struct Buffers;
-    void follow_tile(const Projection& projection, std::size_t tile, unsigned worker);
+    template <class Follow>
+    void in_rounds(const std::vector<std::size_t>& tiles, Follow&& follow);
+    void one_tile(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count);
+    void repeated(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count);
+    void count_tile(const glm::dvec3& direction, unsigned worker);
     void take_up();
 
     const Scene& scene_;
+    const Patches& patches_;
     const NodeMap& nodes_;
     const SkyDome& dome_;
     unsigned threads_;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lines/periodic.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "parallux/factors.h"
@@ -171,6 +172,8 @@ void scale(const PairCounts& counts, SparseRows rows, const FactorSettings& sett
 }
 
 void add_warnings(const Scene& scene, Factors& factors) {
+    if (const std::string tilted = tilt_warning(scene); !tilted.empty())
+        factors.warnings.push_back(tilted);
     factors.unseen = static_cast<std::uint64_t>(
         std::count(factors.exits.begin(), factors.exits.end(), std::uint64_t(0)));
     double area = 0;
@@ -201,6 +204,7 @@ Factors view_factors(const Scene& scene, const Patches& patches, const FactorSet
     factors.sky_parts = dome.count();
     factors.threads = thread_count(settings.threads);
     factors.line_spacing = choose_spacing(scene, patches, settings);
+    check_copies(scene, line_sphere(scene).radius, factors.line_spacing);
     factors.groups = choose_groups(settings);
     const FactorMemory memory(scene, patches, map.nodes.size(), factors.outsides(), factors.threads,
                               settings.max_memory);

@@ -35,6 +35,23 @@ TEST_CASE(
     CHECK(stats["predicted_memory_bytes"] > 0);
 }
 
+// Planted, seen: the period not handed on; names read and nothing taken out.
+TEST_CASE("factors of a scene that repeats, and without what is excluded") {
+    Workplace place;
+    auto matrix = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"-o", place / "f.mtx", "--between", "surfaces", "--quiet"});
+        const Outcome outcome = factors(place, more);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 0);
+        return read_file(place / "f.mtx") + read_file(place / "f.areas.csv");
+    };
+    const std::string alone = matrix({}), repeated = matrix({"--periodic", "2,2"}),
+                      fewer = matrix({"--exclude", "light"});
+    CHECK(repeated != alone);
+    CHECK(alone.find("light") != std::string::npos);
+    CHECK(fewer.find("light") == std::string::npos);
+}
+
 TEST_CASE("factors says no with one line") {
     Workplace place;
     struct Case {
@@ -48,6 +65,10 @@ TEST_CASE("factors says no with one line") {
              {{"-o", place / "f.mtx", "--sky-parts", "12"}, 2, "--sky-parts 12"},
              {{"-o", place / "f.mtx", "--between", "walls"}, 2, "--between walls"},
              {{"-o", place / "f.mtx", "--threshold", "2"}, 2, "--threshold 2"},
+             {{"-o", place / "f.mtx", "--periodic", "0,0"}, 2, "--periodic 0,0"},
+             {{"-o", place / "f.mtx", "--periodic", "2,2", "--line-spacing", "1e-5"}, 2, "spacing"},
+             {{"-o", place / "f.mtx", "--exclude", "nobody"}, 2, "nobody"},
+             {{"-o", place / "f.mtx", "--exclude", "*"}, 2, "--exclude"},
              {{"-o", place / "f.mtx", "--facets", "--patches", "9"}, 2, "--facets"},
              {{"-o", place / "f.mtx", "--sky", place / "f.areas.csv"}, 2, "two outputs"},
              {{"-o", place / "none/f.mtx"}, 4, "none"},

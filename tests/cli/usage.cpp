@@ -95,6 +95,18 @@ TEST_CASE("nonsense is refused with code 2, naming option and value") {
         {{"--first-shot", "exact", "--first-shot-rays", "5"}, "--first-shot-rays"},
         {{"--method", "particles", "--sphere-radius", "5"}, "--sphere-radius"},
         {{"--sphere-radius", "9"}, "--sphere-radius"},
+        {{"--sky", "blue"}, "--sky blue"},
+        {{"--sky", "uniform"}, "--sky uniform"},
+        {{"--sky", "uniform:-1"}, "--sky -1"},
+        {{"--sky", "overcast:1:2"}, "--sky 2"},
+        {{"--sky", "dark:1"}, "--sky dark:1"},
+        {{"--sky", "image:"}, "--sky image:"},
+        {{"--sky", "perez:100"}, "--sun"},
+        {{"--sun", "40"}, "--sun 40"},
+        {{"--sun", "91,0"}, "--sun 91"},
+        {{"--sun", "40,0,-1"}, "--sun -1"},
+        {{"--periodic", "5"}, "--periodic 5"},
+        {{"--periodic", "0,0"}, "--periodic 0,0"},
         {{"--unheard-of"}, "--unheard-of"},
         {{"another.obj"}, "another.obj"},
     };
@@ -105,9 +117,14 @@ TEST_CASE("nonsense is refused with code 2, naming option and value") {
         CHECK(contains(message, one.named));
         CHECK(!contains(message, "\n"));
     }
+    CHECK(refusal({"--sky", "perez:100:0.2", "--sun", "40,180,600", "--periodic", "20,0"}) == "");
     CHECK(refusal({"--lines", "1e8", "--max-memory", "1.5GiB", "--exposure", "-1", "--image",
                    "a.png"}) == "");
-    Outcome outcome = run(place, {"solve", place.scene(), "--lines", "-5"});
+    // Planted, seen: one tile alone predicted.
+    Outcome outcome = run(place, {"info", place.scene(), "--predict", "--periodic", "2,2"});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.one_line("periodic"));
+    outcome = run(place, {"solve", place.scene(), "--lines", "-5"});
     CHECK(outcome.code == 2);
     CHECK(outcome.one_line("--lines -5"));
     CHECK(run(place, {}).code == 2);
@@ -120,7 +137,7 @@ TEST_CASE("nonsense is refused with code 2, naming option and value") {
 TEST_CASE("what is not there yet is refused, not ignored") {
     Workplace place;
     for (std::vector<std::string> arguments :
-         {std::vector<std::string>{"--checkpoint", "x"}, {"--resume", "x"}, {"--bands", "8"}}) {
+         {std::vector<std::string>{"--checkpoint", "x"}, {"--resume", "x"}}) {
         std::string message = refusal(arguments);
         CAPTURE(message);
         CHECK(contains(message, arguments[0]));

@@ -201,7 +201,8 @@ TEST_CASE("damage is refused with file and line") {
         CAPTURE(bad);
         CHECK(message.find(".csv:2: radiosity_0") != std::string::npos);
     }
-    CHECK(refusal(replaced(good, "\n1,", "\n2,")).find(".csv:3:") != std::string::npos);
+    CHECK(refusal(replaced(good, "\n1,", "\n0,")).find(".csv:3:") != std::string::npos);
+    CHECK(refusal(replaced(good, "\n1,", "\n1.5,")).find(".csv:3:") != std::string::npos);
     CHECK(refusal(replaced(good, "\n1,", "\n1,1,")).find(".csv:3: 20 columns") !=
           std::string::npos);
     CHECK(refusal(replaced(good, "0.5,front", "-1,front")) != "");
