@@ -62,7 +62,7 @@ void end_pass(const Run& run, const DirectLight& direct, TransferState& state, P
         for (std::uint32_t band = 0; band < bands; ++band) {
             const std::int64_t quanta = run.banks.received(patch, band);
             double received = static_cast<double>(quanta);
-            if (pass.leftover && pass.leftover->reached(patch, quanta, spread.fine))
+            if (pass.leftover && pass.leftover->reached(patch, quanta, spread.fine[band]))
                 received +=
                     spread.to_come[region * std::size_t(bands) + band] * patches.area[patch];
             const double ambient = pass.ambient.empty() ? 0 : pass.ambient[band];

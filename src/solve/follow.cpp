@@ -97,23 +97,25 @@ private:
 };
 
 // Adds up by how much each step shortens the error: the sum of the last ones is nearly all of what
-// was left before them.
+// was left before them. Each band ends by itself, as if it were alone.
 class Progress {
 public:
-    void step(const Sums& shortened, std::uint32_t bands) {
+    void step(const Sums& shortened) {
         last_[steps_++ % judged] = shortened;
-        for (std::uint32_t band = 0; band < bands; ++band)
+        for (std::uint32_t band = 0; band < max_bands; ++band)
             all_[band] += shortened[band];
     }
-    bool over(std::uint32_t bands) const {
-        bool over = steps_ >= judged;
-        for (std::uint32_t band = 0; over && band < bands; ++band) {
-            double left = 0;
-            for (const Sums& last : last_)
-                left += last[band];
-            over = left <= enough * enough * all_[band];
-        }
-        return over || steps_ >= most_steps;
+    bool over(std::uint32_t band) const {
+        double left = 0;
+        for (const Sums& last : last_)
+            left += last[band];
+        return steps_ >= most_steps || (steps_ >= judged && left <= enough * enough * all_[band]);
+    }
+    bool all_over(std::uint32_t bands) const {
+        for (std::uint32_t band = 0; band < bands; ++band)
+            if (!over(band))
+                return false;
+        return true;
     }
 
 private:
@@ -131,12 +133,12 @@ Values conjugate_gradients(const System& system, const Lead& lead, Values residu
     };
     Values y(residual.size(), 0), search = led();
     Sums rest = products(residual, search, bands);
-    for (Progress progress; !progress.over(bands);) {
+    for (Progress progress; !progress.all_over(bands);) {
         const Values applied = system.times(search);
         const Sums bent = products(search, applied, bands);
         Sums step{}, shortened{};
         for (std::uint32_t band = 0; band < bands; ++band) {
-            step[band] = bent[band] > 0 ? rest[band] / bent[band] : 0;
+            step[band] = bent[band] > 0 && !progress.over(band) ? rest[band] / bent[band] : 0;
             shortened[band] = step[band] * rest[band];
         }
         for (std::size_t k = 0; k < y.size(); ++k) {
@@ -150,7 +152,7 @@ Values conjugate_gradients(const System& system, const Lead& lead, Values residu
             search[k] = next[k] + (before > 0 ? now[k % bands] / before : 0) * search[k];
         }
         rest = now;
-        progress.step(shortened, bands);
+        progress.step(shortened);
     }
     return y;
 }

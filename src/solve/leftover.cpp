@@ -18,14 +18,16 @@ Leftover::Leftover(const Patches& patches, const Regions& regions, std::vector<d
       threads_(threads) {
 }
 
+double Leftover::held(const TransferState& state, std::uint32_t band) {
+    const double sent = static_cast<double>(state.emitted[band] + state.sky[band]);
+    const double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
+    return sent > 0 ? (sent - finished) / sent : 0;
+}
+
 double Leftover::held(const TransferState& state) {
     double most = 0;
-    for (std::uint32_t band = 0; band < state.bands; ++band) {
-        const double sent = static_cast<double>(state.emitted[band] + state.sky[band]);
-        const double finished = static_cast<double>(state.absorbed[band] + state.escaped[band]);
-        if (sent > 0)
-            most = std::max(most, (sent - finished) / sent);
-    }
+    for (std::uint32_t band = 0; band < state.bands; ++band)
+        most = std::max(most, held(state, band));
     return most;
 }
 
@@ -43,7 +45,8 @@ struct Leftover::Sums {
     }
 };
 
-Leftover::Sums Leftover::sums(const TransferState& state, const Banks& banks, bool fine) const {
+Leftover::Sums Leftover::sums(const TransferState& state, const Banks& banks,
+                              const std::vector<bool>& fine) const {
     const std::uint32_t bands = state.bands;
     Sums sums(std::size_t(regions_.count) * bands);
     for (std::size_t patch = 0; patch < patches_.count(); ++patch)
@@ -51,7 +54,7 @@ Leftover::Sums Leftover::sums(const TransferState& state, const Banks& banks, bo
             const std::size_t k = patch * bands + band;
             const std::size_t r = regions_.of[patch] * std::size_t(bands) + band;
             const std::int64_t received = banks.received(patch, band);
-            if (!reached(patch, received, fine))
+            if (!reached(patch, received, fine[band]))
                 continue;
             const double reflectance = patches_.reflectance[k];
             sums.unshot[r] += static_cast<double>(
@@ -107,21 +110,28 @@ Leftover::Spread Leftover::spread(const TransferState& state, const Banks& banks
         if (sent > 0 && wanted > 0)
             spread.factor[band] = wanted / sent;
     }
-    spread.fine = held(state) > much;
+    bool any_fine = false;
+    for (std::uint32_t band = 0; band < bands; ++band) {
+        spread.fine.push_back(held(state, band) > much);
+        any_fine |= spread.fine[band];
+    }
     const Sums regions = sums(state, banks, spread.fine), groups = grouped(regions);
     const GroupSystem between(ways.between_groups(), groups.reflectance(), bands, threads_);
-    if (spread.fine) {
-        const RegionWays between_regions = ways.between_regions();
-        spread.to_come = evened(follow(between_regions, regions.reflectance(), regions.unshot,
-                                       bands, regions_.group, between, threads_),
-                                between_regions.exits, regions.area, bands);
-        return spread;
-    }
-    const std::vector<double> to_come =
+    const std::vector<double> even =
         evened(between.follow(groups.unshot), between.ways().exits, groups.area, bands);
     spread.to_come.resize(regions.area.size());
     for (std::size_t r = 0; r < spread.to_come.size(); ++r)
-        spread.to_come[r] = to_come[regions_.group[r / bands] * std::size_t(bands) + r % bands];
+        spread.to_come[r] = even[regions_.group[r / bands] * std::size_t(bands) + r % bands];
+    if (!any_fine)
+        return spread;
+    const RegionWays between_regions = ways.between_regions();
+    const std::vector<double> fine =
+        evened(follow(between_regions, regions.reflectance(), regions.unshot, bands, regions_.group,
+                      between, threads_),
+               between_regions.exits, regions.area, bands);
+    for (std::size_t r = 0; r < spread.to_come.size(); ++r)
+        if (spread.fine[r % bands])
+            spread.to_come[r] = fine[r];
     return spread;
 }
 

@@ -22,8 +22,9 @@ public:
     Leftover(const Patches& patches, const Regions& regions, std::vector<double> planned,
              unsigned threads);
 
-    /// Of what was sent so far, the share that has neither been absorbed nor escaped, in the band
-    /// where it is largest.
+    /// Of what was sent so far, the share that has neither been absorbed nor escaped.
+    static double held(const TransferState& state, std::uint32_t band);
+    /// In the band where it is largest.
     static double held(const TransferState& state);
     /// Above that share it is followed from patch to patch.
     static constexpr double much = 1.0 / 8;
@@ -32,7 +33,7 @@ public:
     /// and where light can reach it factor[band] · to_come[region · bands + band] · A more.
     struct Spread {
         std::vector<double> factor, to_come;
-        bool fine = false;  ///< from patch to patch
+        std::vector<bool> fine;  ///< from patch to patch, a band
     };
     /// `done`: the share of the planned emission that was to be sent.
     Spread spread(const TransferState& state, const Banks& banks, double done) const;
@@ -46,7 +47,7 @@ public:
 
 private:
     struct Sums;
-    Sums sums(const TransferState& state, const Banks& banks, bool fine) const;
+    Sums sums(const TransferState& state, const Banks& banks, const std::vector<bool>& fine) const;
     Sums grouped(const Sums& regions) const;
 
     const Patches& patches_;

@@ -131,7 +131,8 @@ TEST_CASE("names with * and ?, and what they leave out") {
 TEST_CASE("surfaces keep their own lightmap coordinates when others are left out") {
     Scene scene = painted();
     for (int k = 0; k < 5; ++k)  // the last has none
-        scene.lightmap_uv.push_back({glm::vec2(k), glm::vec2(k), glm::vec2(k)});
+        scene.lightmap_uv.push_back(
+            {glm::vec2(float(k)), glm::vec2(float(k)), glm::vec2(float(k))});
     exclude_surfaces(scene, {"wall"});
     REQUIRE(scene.surfaces.size() == 3);
     REQUIRE(scene.lightmap_uv.size() == 3);
