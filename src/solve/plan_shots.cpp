@@ -27,8 +27,8 @@ void plan_local_rays(const Patches& patches, const SolveSettings& settings, Plan
 }
 
 // Direct light must never be what the error stops at: its rays, whose sequence is even, grow as a
-// thirty-second of the lines' exits, and a hundred meet a patch of mean size at least. Four times as
-// many lower the error by 1 % of it in the meshes tried, and take as long as all else.
+// thirty-second of the lines' exits, and a hundred meet a patch of mean size at least. Four times
+// as many lower the error by 1 % of it in the meshes tried, and take as long as all else.
 std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
     double area = mean_area(patches) * static_cast<double>(patches.count());
     double exits = static_cast<double>(plan.groups * plan.bundles) * area / (2 * plan.cell);
