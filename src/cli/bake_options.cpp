@@ -45,12 +45,10 @@ void add_bake_shape(CLI::App& app, CLI::Option* bake, SolveOptions& o) {
 void add_lightmap_shape(CLI::App& app, CLI::Option* lightmap, SolveOptions& o) {
     const OptionGroup option{app, "Bake"};
     option("--lightmap-uv", "UV",
-           "pack (a chart a surface), or own: the TEXCOORD_1 of a glTF scene [pack]",
-           [&](auto& v) {
+           "pack (a chart a surface), or own: the TEXCOORD_1 of a glTF scene [pack]", [&](auto& v) {
                o.lightmap_settings.own_uv = o.load.lightmap_uv =
                    parse_choice<bool>("--lightmap-uv", v, {{"pack", false}, {"own", true}});
-           })
-        ->needs(lightmap);
+           });
     option("--lightmap-size", "N", "Texels wide and high [a texel a patch; with own 1024]",
            [&](auto& v) {
                o.lightmap_settings.size =

@@ -11,7 +11,7 @@
 
 namespace parallux {
 
-enum class Command { print, info, solve, compare, factors };
+enum class Command { print, info, solve, reuse, compare, factors };
 enum class ProgressMode { automatic, on, off, json };
 
 struct InfoOptions {
@@ -52,6 +52,10 @@ struct SolveOptions {
     FluxUnit flux_unit = FluxUnit::object;
     std::filesystem::path sensors, sensor_table;  ///< empty: none
     SensorSettings sensing;
+    std::filesystem::path save;    ///< the solution in a file; empty: not wanted
+    std::filesystem::path result;  ///< such a file that outputs are made from; empty: solve
+    /// What was typed of scene, its changes and patches, without the scene's name.
+    std::vector<std::string> scene_arguments;
     ProgressMode progress = ProgressMode::automatic;
     bool quiet = false;
 
@@ -71,6 +75,7 @@ struct Options {
     std::string text;  ///< to print: help or version
     InfoOptions info;
     SolveOptions solve;
+    SolveOptions reuse;
     CompareOptions compare;
     FactorsOptions factors;
 };
@@ -78,5 +83,8 @@ struct Options {
 /// Reads the command line. Lengths are scaled to metres. Throws Fault::usage naming the option and
 /// the value.
 Options parse_options(int argc, const char* const* argv);
+
+/// What single options cannot know of each other; lengths become metres. Once. Throws Fault::usage.
+void settle(SolveOptions& options);
 
 }  // namespace parallux

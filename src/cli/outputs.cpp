@@ -46,6 +46,21 @@ private:
     std::exception_ptr failure_;
 };
 
+// The solution is lent, not copied: it may be most of the memory.
+void save(const SolveOptions& options, const Scene& scene, const Patches& patches,
+          Solution& solution, double seconds) {
+    solution.seconds.total = seconds;
+    Result result{PARALLUX_VERSION, scene_hash(scene, patches), options.scene_arguments,
+                  options.solve, std::move(solution)};
+    Attempts attempt;
+    attempt([&] {
+        WritingFile guard;
+        write_result(options.save, result);
+    });
+    solution = std::move(result.solution);
+    attempt.rethrow();
+}
+
 }  // namespace
 
 double seconds_since_start() {
@@ -111,6 +126,8 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
                    Solution& solution, const Measurements& measured) {
     const double before = seconds_since_start();
     Attempts attempt;
+    if (!options.save.empty())
+        attempt([&] { save(options, scene, patches, solution, before); });
     if (!options.table.empty())
         attempt([&] {
             WritingFile guard;
@@ -139,8 +156,10 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
             WritingFile guard;
             write_lightmap(options.lightmap, scene, lightmap);
         });
-    solution.seconds.total = seconds_since_start();
-    solution.seconds.output = solution.seconds.total - before;
+    if (options.result.empty()) {  // else the times are those of the solve
+        solution.seconds.total = seconds_since_start();
+        solution.seconds.output = solution.seconds.total - before;
+    }
     if (!options.stats.empty())
         attempt([&] {
             WritingFile guard;
