@@ -33,7 +33,7 @@ bool target_met(const SolveSettings& settings, const Solution& solution) {
     return false;
 }
 
-int solve_scene(const SolveOptions& options) {
+int solve_scene(SolveOptions options) {
     Prepared prepared = prepare(options);
     auto& [scene, patches, measured, loaded, divided] = prepared;
 

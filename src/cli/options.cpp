@@ -121,7 +121,7 @@ void settle(SolveOptions& o) {
     contradict(o.picture.flat && o.images.empty() && !bakes,
                "--flat needs --image, --bake or --lightmap");
     contradict(o.lightmap_settings.own_uv && o.lightmap.empty() && o.save.empty(),
-               "--lightmap-uv own needs --lightmap or --save");
+               "--lightmap-uv own or objects needs --lightmap or --save");
     contradict(o.bake.quantity != Quantity::radiosity && !bakes,
                "--quantity needs --bake or --lightmap");
     o.bake.flat = o.lightmap_settings.flat = o.picture.flat;
@@ -136,8 +136,11 @@ void settle(SolveOptions& o) {
 std::vector<std::filesystem::path> SolveOptions::outputs() const {
     std::vector<std::filesystem::path> files = images;
     files.insert(files.end(), bakes.begin(), bakes.end());
+    files.insert(files.end(), object_lightmaps.begin(), object_lightmaps.end());
+    const std::filesystem::path shared =
+        lightmap_settings.by_object ? std::filesystem::path() : lightmap;
     for (const std::filesystem::path& file :
-         {save, table, fluxes, sensor_table, stats, lightmap, lightmap_mesh(lightmap)})
+         {save, table, fluxes, sensor_table, stats, shared, lightmap_mesh(lightmap)})
         if (!file.empty())
             files.push_back(file);
     return files;

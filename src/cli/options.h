@@ -44,11 +44,13 @@ struct SolveOptions {
     std::vector<std::filesystem::path> images;
     double refresh = 0;  ///< seconds between pictures while the run goes on; 0: none
     std::vector<std::filesystem::path> bakes;
-    BakeSettings bake;
+    BakeSettings bake = {.textures = true};  ///< of glTF; PLY knows no textures
     LightmapSettings lightmap_settings;
     std::filesystem::path table, stats, lightmap;  ///< empty: not wanted
-    std::vector<std::string> receivers;            ///< of the table; empty: all
-    std::filesystem::path fluxes;                  ///< empty: not wanted
+    /// Of by_object, one an object that has surfaces: set when the scene is known.
+    std::vector<std::filesystem::path> object_lightmaps;
+    std::vector<std::string> receivers;  ///< of the table; empty: all
+    std::filesystem::path fluxes;        ///< empty: not wanted
     FluxUnit flux_unit = FluxUnit::object;
     std::filesystem::path sensors, sensor_table;  ///< empty: none
     SensorSettings sensing;

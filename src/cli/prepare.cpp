@@ -6,12 +6,34 @@
 
 namespace parallux {
 
-Prepared prepare(const SolveOptions& options) {
+namespace {
+
+// Of the objects that have surfaces.
+std::vector<std::filesystem::path> used_lightmaps(const std::filesystem::path& file,
+                                                  const Scene& scene) {
+    const std::vector<std::filesystem::path> all = object_lightmaps(file, scene);
+    std::vector<bool> used(all.size());
+    for (const Surface& surface : scene.surfaces)
+        used[surface.object] = true;
+    std::vector<std::filesystem::path> files;
+    for (std::size_t object = 0; object < all.size(); ++object)
+        if (used[object])
+            files.push_back(all[object]);
+    return files;
+}
+
+}  // namespace
+
+Prepared prepare(SolveOptions& options) {
     check_outputs(options);
     Prepared p;
     p.scene = load_scene(options.scene, options.load);
     change_scene(options, p.scene);
     check_camera(options, p.scene);
+    if (!options.lightmap.empty() && options.lightmap_settings.by_object) {
+        options.object_lightmaps = used_lightmaps(options.lightmap, p.scene);
+        check_outputs(options);
+    }
     if (!options.sensors.empty())
         p.measured.sensors = read_sensors(options.sensors, options.load.scale);
     if (!options.receivers.empty())

@@ -14,8 +14,8 @@ struct Prepared {
 };
 
 /// Checks the outputs, reads the scene and what is measured, changes it as the options say, and
-/// divides it.
-Prepared prepare(const SolveOptions& options);
+/// divides it. Sets the options' object_lightmaps.
+Prepared prepare(SolveOptions& options);
 
 /// Makes outputs from the result that the options name; returns the exit code.
 int reuse_result(SolveOptions options);

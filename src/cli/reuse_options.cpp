@@ -65,7 +65,7 @@ std::vector<std::string> scene_arguments(const CLI::App& parsed) {
         const bool scene = option->get_group() == "Scene" || option->get_group() == "Patches";
         // How triangles are joined depends on whether these coordinates are read.
         if (option->count() > 0 && option->check_name("--lightmap-uv") &&
-            option->results().back() == "own")
+            option->results().back() != "pack")
             arguments.push_back("--read-lightmap-uv");
         if (!scene || option->count() == 0 || option->get_positional())
             continue;

@@ -77,7 +77,7 @@ TEST_CASE("outputs from a result are those of the solve, to the byte") {
             CAPTURE(bands);
             CAPTURE(groups);
             write_file(place / "m.csv", materials(bands));
-            write_file(place / "s.csv", "x,y,z,nx,ny,nz\n1,1,1,0,0,1\n");
+            write_file(place / "s.csv", "x,y,z,nx,ny,nz\n0.5,0.5,0.5,0,0,1\n");
             const Words look = bands == 8
                                    ? Words{"--band", "5,0,7", "--size", "40x30", "--exposure", "1"}
                                    : Words{"--size", "40x30", "--quantity", "radiance"};
