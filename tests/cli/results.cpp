@@ -99,7 +99,7 @@ TEST_CASE("outputs from a result are those of the solve, to the byte") {
         }
 }
 
-// Planted: only the numbers of patches compared, not the hashes; materials' values not hashed.
+// Planted: only the numbers of patches compared, not the hashes.
 TEST_CASE("a result of another scene is refused with both hashes, and nothing is touched") {
     Workplace place;
     solve_small(place, {"--materials", place / "m.csv"});
