@@ -12,7 +12,7 @@
 namespace parallux {
 
 /// A solution and what it belongs to.
-struct Result {
+struct SavedSolution {
     std::string version;      ///< of the program that solved it
     std::uint64_t scene = 0;  ///< scene_hash() of scene and patches
     /// Whatever makes equal patches of the scene's file again; the program keeps its options here.
@@ -28,14 +28,14 @@ std::uint64_t scene_hash(const Scene& scene, const Patches& patches);
 
 /// Writes one binary file with a format's number, a length and a checksum. The file is whole or
 /// untouched; throws Fault::output.
-void write_result(const std::filesystem::path& file, const Result& result);
+void write_result(const std::filesystem::path& file, const SavedSolution& result);
 
 /// Reads it back. Every count is compared with the bytes there are before anything is taken. Throws
 /// Fault::input for a file that is none, of another format, cut, longer, or changed in any byte.
-Result read_result(const std::filesystem::path& file);
+SavedSolution read_result(const std::filesystem::path& file);
 
 /// Throws Fault::input, naming both hashes, unless the result is of these patches of this scene.
-void check_result(const std::filesystem::path& file, const Result& result, const Scene& scene,
-                  const Patches& patches);
+void check_result(const std::filesystem::path& file, const SavedSolution& result,
+                  const Scene& scene, const Patches& patches);
 
 }  // namespace parallux

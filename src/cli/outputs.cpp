@@ -51,8 +51,8 @@ private:
 void save(const SolveOptions& options, const Scene& scene, const Patches& patches,
           Solution& solution, double seconds) {
     solution.seconds.total = seconds;
-    Result result{PARALLUX_VERSION, scene_hash(scene, patches), options.scene_arguments,
-                  options.solve, std::move(solution)};
+    SavedSolution result{PARALLUX_VERSION, scene_hash(scene, patches), options.scene_arguments,
+                         options.solve, std::move(solution)};
     Attempts attempt;
     attempt([&] {
         WritingFile guard;

@@ -46,7 +46,7 @@ Prepared prepare(SolveOptions& options) {
 }
 
 int reuse_result(SolveOptions options) {
-    Result result = read_result(options.result);
+    SavedSolution result = read_result(options.result);
     recall(result, options);
     if (options.outputs().empty())
         throw Error(Fault::usage, "expected an output, as --image room.png or --bake room.glb");

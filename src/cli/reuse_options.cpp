@@ -76,7 +76,7 @@ std::vector<std::string> scene_arguments(const CLI::App& parsed) {
     return arguments;
 }
 
-void recall(const Result& result, SolveOptions& options) {
+void recall(const SavedSolution& result, SolveOptions& options) {
     try {
         replay(result.arguments, options);
     } catch (const std::exception&) {

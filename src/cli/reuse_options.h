@@ -10,7 +10,7 @@ class App;
 namespace parallux {
 
 struct SolveOptions;
-struct Result;
+struct SavedSolution;
 
 /// `parallux render` and `parallux bake`: one command with two names, outputs from a result.
 CLI::App* add_render(CLI::App& app, SolveOptions& options);
@@ -21,6 +21,6 @@ std::vector<std::string> scene_arguments(const CLI::App& parsed);
 
 /// Fills in what the result was solved with, then what was typed beside it, which counts; settles
 /// all. Throws Fault::input where the result's arguments are none, Fault::usage for contradictions.
-void recall(const Result& result, SolveOptions& options);
+void recall(const SavedSolution& result, SolveOptions& options);
 
 }  // namespace parallux

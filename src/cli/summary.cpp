@@ -103,7 +103,7 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
 }  // namespace
 
 void tell_reuse(const SolveOptions& options, const Scene& scene, const Patches& patches,
-                const Result& result) {
+                const SavedSolution& result) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
     const Solution& solution = result.solution;

@@ -12,7 +12,7 @@ void tell_summary(const SolveOptions& options, const Scene& scene, const Patches
 
 /// The same on outputs made from a result.
 void tell_reuse(const SolveOptions& options, const Scene& scene, const Patches& patches,
-                const Result& result);
+                const SavedSolution& result);
 
 /// A line on the balance of net fluxes.
 std::string describe_fluxes(const Fluxes& fluxes);

@@ -117,6 +117,13 @@ void make_mesh(const Scene& scene, const Patches& patches, const std::vector<Cha
     drop_unused(scene, lightmap.mesh);
 }
 
+BakeSettings as_bake(const LightmapSettings& settings) {
+    BakeSettings result;
+    result.quantity = settings.quantity, result.flat = settings.flat;
+    result.threads = settings.threads;
+    return result;
+}
+
 }  // namespace
 
 Lightmap make_lightmap(const Scene& scene, const Patches& patches, const Solution& solution,
@@ -124,17 +131,15 @@ Lightmap make_lightmap(const Scene& scene, const Patches& patches, const Solutio
     Lightmap lightmap;
     lightmap.settings = settings;
     lightmap.bands = solution.bands;
-    const BakeSettings as_bake{
-        .quantity = settings.quantity, .flat = settings.flat, .threads = settings.threads};
     if (settings.own_uv) {
         check_own_uv(scene);
-        paint_own_uv(scene, BakeValues(scene, patches, solution, as_bake), lightmap);
+        paint_own_uv(scene, BakeValues(scene, patches, solution, as_bake(settings)), lightmap);
         lightmap.mesh = own_uv_mesh(scene, patches, settings);
         return lightmap;
     }
     const std::vector<ChartGrid> grids = lay_charts(scene, patches, lightmap);
     lightmap.values.assign(std::size_t(lightmap.width) * lightmap.height * lightmap.bands, 0);
-    BakeValues values(scene, patches, solution, as_bake);
+    BakeValues values(scene, patches, solution, as_bake(settings));
     ChartPainter painter(scene, patches, values, lightmap);
     parallel_for(settings.threads, grids.size(), 8, [&](std::size_t b, std::size_t e, unsigned) {
         for (std::size_t chart = b; chart < e; ++chart)
@@ -142,6 +147,25 @@ Lightmap make_lightmap(const Scene& scene, const Patches& patches, const Solutio
     });
     make_mesh(scene, patches, grids, lightmap);
     return lightmap;
+}
+
+void make_object_lightmaps(const Scene& scene, const Patches& patches, const Solution& solution,
+                           const LightmapSettings& settings,
+                           const std::function<void(const Lightmap&)>& take) {
+    check_own_uv(scene);
+    BakeValues values(scene, patches, solution, as_bake(settings));
+    std::vector<bool> used(scene.objects.size());
+    for (const Surface& surface : scene.surfaces)
+        used[surface.object] = true;
+    for (std::uint32_t object = 0; object < used.size(); ++object) {
+        if (!used[object])
+            continue;
+        Lightmap map;
+        map.settings = settings;
+        map.object = object;
+        paint_own_uv(scene, values, map);
+        take(map);
+    }
 }
 
 }  // namespace parallux

@@ -160,27 +160,6 @@ void paint_own_uv(const Scene& scene, const BakeValues& values, Lightmap& map) {
                  });
 }
 
-void make_object_lightmaps(const Scene& scene, const Patches& patches, const Solution& solution,
-                           const LightmapSettings& settings,
-                           const std::function<void(const Lightmap&)>& take) {
-    check_own_uv(scene);
-    BakeValues values(
-        scene, patches, solution,
-        {.quantity = settings.quantity, .flat = settings.flat, .threads = settings.threads});
-    std::vector<bool> used(scene.objects.size());
-    for (const Surface& surface : scene.surfaces)
-        used[surface.object] = true;
-    for (std::uint32_t object = 0; object < used.size(); ++object) {
-        if (!used[object])
-            continue;
-        Lightmap map;
-        map.settings = settings;
-        map.object = object;
-        paint_own_uv(scene, values, map);
-        take(map);
-    }
-}
-
 Bake own_uv_mesh(const Scene& scene, const Patches& patches, const LightmapSettings& settings) {
     check_own_uv(scene);
     Bake mesh;

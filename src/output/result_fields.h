@@ -13,7 +13,7 @@ inline constexpr std::uint64_t result_head = 8 + 4 + 8;
 /// All that a file keeps of a result, in its order, for reading and writing alike: the archive is
 /// called with each value.
 template <class Archive>
-void result_fields(Archive& a, Result& r) {
+void result_fields(Archive& a, SavedSolution& r) {
     Solution& s = r.solution;
     a(r.version), a(r.scene), a(r.arguments);
     a(r.settings.method), a(r.settings.seed), a(r.settings.target_error);

@@ -117,10 +117,10 @@ std::string hash_text(std::uint64_t hash) {
 
 }  // namespace
 
-Result read_result(const std::filesystem::path& file) {
+SavedSolution read_result(const std::filesystem::path& file) {
     const std::string bytes = read_file(file, std::uint64_t(1) << 36);
     check_whole(file, bytes);
-    Result result;
+    SavedSolution result;
     Reader reader(file, std::string_view(bytes).substr(
                             result_head, bytes.size() - result_head - sizeof(std::uint64_t)));
     result_fields(reader, result);
@@ -128,8 +128,8 @@ Result read_result(const std::filesystem::path& file) {
     return result;
 }
 
-void check_result(const std::filesystem::path& file, const Result& result, const Scene& scene,
-                  const Patches& patches) {
+void check_result(const std::filesystem::path& file, const SavedSolution& result,
+                  const Scene& scene, const Patches& patches) {
     const Solution& solution = result.solution;
     const std::size_t values = patches.count() * patches.bands;
     const std::uint64_t hash = scene_hash(scene, patches);

@@ -82,9 +82,9 @@ private:
 
 }  // namespace
 
-void write_result(const std::filesystem::path& file, const Result& result) {
+void write_result(const std::filesystem::path& file, const SavedSolution& result) {
     // The fields' list is one for both ways, and reading has to change them.
-    auto& fields = const_cast<Result&>(result);
+    auto& fields = const_cast<SavedSolution&>(result);
     Measure measure;
     result_fields(measure, fields);
     OutputFile output(file);

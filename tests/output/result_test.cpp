@@ -24,8 +24,8 @@ void write(const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
-Result small() {
-    Result r{"1.2", 77, {"--sky", "uniform:1"}, {}, {}};
+SavedSolution small() {
+    SavedSolution r{"1.2", 77, {"--sky", "uniform:1"}, {}, {}};
     r.settings.method = Method::lines, r.settings.seed = 9, r.settings.target_error = 0.5;
     Solution& s = r.solution;
     s.bands = 2;
@@ -94,9 +94,9 @@ Scene plate() {
 
 // Planted: stderror not among the fields; two counts swapped in reading alone.
 TEST_CASE("what is written is read back, every value of it") {
-    Result result = small();
+    SavedSolution result = small();
     write_result(file, result);
-    Result read = read_result(file);
+    SavedSolution read = read_result(file);
     Listing wanted, got;
     result_fields(wanted, result), result_fields(got, read);
     CHECK(wanted.texts == got.texts);
@@ -157,7 +157,7 @@ TEST_CASE("a made-up file with the right checksum is read or refused, no more") 
         CHECK(refusal() != "");
     }
     for (float value : {HUGE_VALF, NAN}) {
-        Result odd = small();
+        SavedSolution odd = small();
         odd.solution.radiosity[2] = value;
         write_result(file, odd);
         CHECK(refusal().find("finite") != std::string::npos);

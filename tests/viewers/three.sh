@@ -1,6 +1,7 @@
 #!/bin/sh
 # Opens a baked Cornell box in three.js, in headless Chromium, and compares 50 colours with the table,
 # as loaded and as drawn.
+# Planted, each seen to fail: the exposure stated without the power of two in it; colours as sRGB.
 # Usage: three.sh PARALLUX SCENE [SCREENSHOT.png]. Needs node, chromium (or its path in CHROMIUM) and the
 # npm packages three and puppeteer-core where NODE_PATH says; gltf-validator, if there, is asked as
 # well. Exit code 77: something is not installed, nothing was tested.
