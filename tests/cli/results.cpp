@@ -68,8 +68,7 @@ Outcome render(const Workplace& place, const Words& more) {
 
 }  // namespace
 
-// Planted: standard errors left out of the file; the seed left out (sensors differ); stored
-// arguments not replayed, which was refused.
+// Planted: standard errors left out of the file; stored arguments not replayed, which was refused.
 TEST_CASE("outputs from a result are those of the solve, to the byte") {
     for (int bands : {1, 3, 8})
         for (const char* groups : {"1", "8"}) {

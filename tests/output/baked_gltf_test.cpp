@@ -79,6 +79,7 @@ TEST_CASE(
         test::Glb glb(temporary("e.glb"));
         const double exposure = glb.json["asset"]["extras"]["exposure"];
         CHECK((brightness < 0.1f) == (exposure == 1));
+        CHECK(std::exp2(std::round(std::log2(exposure))) == exposure);
         std::size_t v = 0;
         float most = 0;
         for (const auto& mesh : glb.json["meshes"])

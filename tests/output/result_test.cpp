@@ -138,7 +138,7 @@ TEST_CASE("every byte that is changed, and every length that is cut, is refused"
     CHECK(refusal() == "");
 }
 
-// Planted: a count that is not compared with the bytes there are, which took no end of memory.
+// Planted: a count that is not compared with the bytes there are.
 TEST_CASE("a made-up file with the right checksum is read or refused, no more") {
     write_result(file, small());
     const std::string whole = test::bytes_of(file);
