@@ -220,8 +220,6 @@ TEST_CASE("a plate close below a ceiling hides it, though the lines are far coar
 TEST_CASE("between two sheets much closer than the lines no light comes but over their rims") {
     // Half a millimetre apart, leaning on each other a little, facing away from each other; in
     // scenes that are painted and in meshes. A line that enters between them meets both in turn.
-    // Fails in meshes when what is met from behind comes first, as of a solid on a floor
-    // (planted, seen).
     for (bool many : {false, true}) {
         Scene scene = many ? crowd(false, false) : room(grey(0.5), 3);
         const auto two_sided = static_cast<std::uint32_t>(scene.materials.size());
