@@ -92,15 +92,16 @@ double seconds_since_start() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check_outputs(const SolveOptions& options) {
-    const std::vector<std::filesystem::path> files = options.outputs();
+void check_files(const std::vector<std::filesystem::path>& files,
+                 const std::vector<std::filesystem::path>& inputs,
+                 const std::filesystem::path& scene) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-        for (const std::filesystem::path& input : options.inputs())
+        for (const std::filesystem::path& input : inputs)
             if (same_file(files[i], input))
-                throw Error(Fault::usage, files[i].string() +
-                                              (input == options.scene ? ": is the scene itself"
-                                                                      : ": is read from") +
-                                              "; choose another output name");
+                throw Error(Fault::usage,
+                            files[i].string() +
+                                (input == scene ? ": is the scene itself" : ": is read from") +
+                                "; choose another output name");
         for (std::size_t j = 0; j < i; ++j)
             if (same_file(files[i], files[j]))
                 throw Error(Fault::usage,
@@ -110,6 +111,10 @@ void check_outputs(const SolveOptions& options) {
         WritingFile guard;
         check_writable(file);
     }
+}
+
+void check_outputs(const SolveOptions& options) {
+    check_files(options.outputs(), options.inputs(), options.scene);
 }
 
 void check_camera(const SolveOptions& options, Scene& scene) {

@@ -115,19 +115,24 @@ std::vector<bool> much_to_come(const std::vector<double>& received,
 
 }  // namespace
 
+// Emission that more or fewer lines carried than expected is corrected alike for all.
+std::vector<double> Leftover::correction(const TransferState& state, double done) const {
+    std::vector<double> factor(state.bands, 1);
+    for (std::uint32_t band = 0; band < state.bands; ++band) {
+        const double sky = static_cast<double>(state.sky[band]);
+        const double sent = static_cast<double>(state.emitted[band]) + sky;
+        const double wanted = planned_[band] / state.watts_per_quantum + sky / done;
+        if (sent > 0 && wanted > 0)
+            factor[band] = wanted / sent;
+    }
+    return factor;
+}
+
 Leftover::Spread Leftover::spread(const TransferState& state, const Banks& banks,
                                   double done) const {
     const std::uint32_t bands = state.bands;
     Spread spread;
-    spread.factor.assign(bands, 1);
-    for (std::uint32_t band = 0; band < bands; ++band) {
-        const double sky = static_cast<double>(state.sky[band]);
-        const double sent = static_cast<double>(state.emitted[band]) + sky;
-        const double wanted = planned_[band] / state.watts_per_quantum + sky / done;
-        // Emission that more or fewer lines carried than expected is corrected alike for all.
-        if (sent > 0 && wanted > 0)
-            spread.factor[band] = wanted / sent;
-    }
+    spread.factor = correction(state, done);
     // Between groups, in each of which it is even.
     const std::vector<bool> only_reached(bands, false), all_of_a_region(bands, true);
     const Sums groups = grouped(sums(state, banks, only_reached));

@@ -49,6 +49,7 @@ private:
     struct Sums;
     Sums sums(const TransferState& state, const Banks& banks, const std::vector<bool>& fine) const;
     Sums grouped(const Sums& regions) const;
+    std::vector<double> correction(const TransferState& state, double done) const;
 
     const Patches& patches_;
     const Regions& regions_;
