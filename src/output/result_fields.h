@@ -10,6 +10,9 @@ inline constexpr std::uint32_t result_format = 1;
 /// Magic, format and the file's length; then the fields, then a checksum of all before.
 inline constexpr std::uint64_t result_head = 8 + 4 + 8;
 
+/// read_result() of a file that has these bytes.
+SavedSolution result_of(const std::filesystem::path& file, const std::string& bytes);
+
 /// All that a file keeps of a result, in its order, for reading and writing alike: the archive is
 /// called with each value.
 template <class Archive>

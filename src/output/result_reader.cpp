@@ -118,7 +118,10 @@ std::string hash_text(std::uint64_t hash) {
 }  // namespace
 
 SavedSolution read_result(const std::filesystem::path& file) {
-    const std::string bytes = read_file(file, std::uint64_t(1) << 36);
+    return result_of(file, read_file(file, std::uint64_t(1) << 36));
+}
+
+SavedSolution result_of(const std::filesystem::path& file, const std::string& bytes) {
     check_whole(file, bytes);
     SavedSolution result;
     Reader reader(file, std::string_view(bytes).substr(

@@ -201,10 +201,14 @@ Solution Estimate::solution(const Plan& plan) {
     solution.radiosity.resize(solution.irradiance.size());
     parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
                  [&](std::size_t begin, std::size_t end, unsigned) {
-                     for (std::size_t k = begin; k < end; ++k)
+                     for (std::size_t k = begin; k < end; ++k) {
+                         // A patch may send more than it has and then send a debt: few lines may
+                         // bring less than nothing. Nothing is nearer to the truth.
+                         solution.irradiance[k] = std::max(0.0f, solution.irradiance[k]);
                          solution.radiosity[k] = static_cast<float>(
                              patches_.emission[k] +
                              static_cast<double>(patches_.reflectance[k]) * solution.irradiance[k]);
+                     }
                  });
     solution.hash = hash_of(solution);
     // The groups' quanta together stand for one run.
