@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "factors/judge.h"
 #include "output/output_file.h"
@@ -21,7 +26,8 @@ struct Options {
     std::string scene, json;
     std::vector<std::uint64_t> bundles{64, 256, 1024, 4096}, solve{64, 256, 1024, 4096};
     std::vector<std::uint32_t> rays{16, 64, 256, 1024};
-    std::uint64_t reference = 32768;
+    std::uint64_t reference = 8192;
+    std::size_t facets = 0;
     bool tiny = false;
 };
 
@@ -55,6 +61,37 @@ Scene court() {
     return scene;
 }
 
+// Leaves the facets nearest to the middle of the scene's bounds, seen from above.
+void keep_nearest(std::size_t facets, Scene& scene) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const glm::dvec3& position : scene.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const glm::dvec2 middle(0.5 * (low + high));
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const glm::dvec2 away =
+            glm::dvec2(surface_point(scene, scene.surfaces[s], 1 / 3.0, 1 / 3.0)) - middle;
+        order.emplace_back(glm::dot(away, away), s);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(std::min(order.size(), facets));
+    std::vector<Surface> kept;
+    for (const auto& [distance, s] : order)
+        kept.push_back(scene.surfaces[s]);
+    scene.surfaces = std::move(kept);
+    // Positions that nothing is left of would widen the sphere of lines.
+    std::vector<glm::dvec3> positions;
+    for (Surface& surface : scene.surfaces)
+        for (std::uint32_t& corner : surface.corner)
+            if (corner != none) {
+                positions.push_back(scene.positions[corner]);
+                corner = static_cast<std::uint32_t>(positions.size() - 1);
+            }
+    scene.positions = std::move(positions);
+}
+
 int run(const Options& options) {
     if (!options.json.empty())
         check_writable(options.json);
@@ -64,7 +101,9 @@ int run(const Options& options) {
     }
     LoadSettings load;
     load.keep_triangles = true;
-    const Scene scene = options.tiny ? court() : load_scene(options.scene, load);
+    Scene scene = options.tiny ? court() : load_scene(options.scene, load);
+    if (options.facets > 0)
+        keep_nearest(options.facets, scene);
     PatchSettings facets;
     facets.size = 1e15;
     facets.clusters = false;
@@ -105,6 +144,7 @@ int main(int argc, char** argv) {
     app.add_option("--rays", options.rays, "Rays a facet")->delimiter(',');
     app.add_option("--solve", options.solve, "Lengths of the solver")->delimiter(',');
     app.add_option("--reference", options.reference, "Bundles of the reference");
+    app.add_option("--facets", options.facets, "Only so many in the scene's middle; 0: all");
     app.add_flag("--tiny", options.tiny, "A court; exit code 1 when the methods do not agree");
     CLI11_PARSE(app, argc, argv);
     if (options.tiny) {

@@ -27,7 +27,8 @@ struct FactorSettings {
     SkyParts sky_parts = SkyParts::whole;
     std::uint64_t bundles = 4096;  ///< of all groups together
     double line_spacing = 0;       ///< δ, metres; 0: from lines_per_patch
-    double lines_per_patch = 0;    ///< c: δ² = mean patch area / c; 0: 4, more in scenes of few
+    double lines_per_patch = 0;    ///< c: δ² = mean patch area / c; 0: 4 to 64, as the bundles of
+                                   ///< a group to the power 2/3, 8 at 128; more in scenes of few
                                    ///< patches, so that a bundle has 16 384 lines
     std::uint32_t groups = 0;      ///< whose spread tells the errors; 0: 8 from 64 bundles on
     DirectionSet directions = DirectionSet::lattice;

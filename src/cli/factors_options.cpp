@@ -106,7 +106,7 @@ void add_lines(CLI::App& app, FactorsOptions& o) {
            [&s](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
                            [&s](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
-    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4, or more]",
+    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4 to 64]",
            [&s](auto& v) { s.lines_per_patch = parse_positive("--lines-per-patch", v); })
         ->excludes(spacing);
     option("--groups", "R", "Parts of the bundles whose spread tells the error; 1: unknown [8]",
