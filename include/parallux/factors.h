@@ -27,8 +27,8 @@ struct FactorSettings {
     SkyParts sky_parts = SkyParts::whole;
     std::uint64_t bundles = 4096;  ///< of all groups together
     double line_spacing = 0;       ///< δ, metres; 0: from lines_per_patch
-    double lines_per_patch = 0;    ///< c: δ² = mean patch area / c; 0: 4 to 64, as the bundles of
-                                   ///< a group to the power 2/3, 8 at 128; more in scenes of few
+    double lines_per_patch = 0;    ///< c: δ² = mean patch area / c; 0: 4 to 64, as the third
+                                   ///< root of a group's bundles, 8 at 128; more in scenes of few
                                    ///< patches, so that a bundle has 16 384 lines
     std::uint32_t groups = 0;      ///< whose spread tells the errors; 0: 8 from 64 bundles on
     DirectionSet directions = DirectionSet::lattice;
@@ -59,7 +59,7 @@ struct Factors {
     std::vector<double> outside;
     std::vector<double> outside_error;  ///< standard errors, from groups; empty from one alone
     std::vector<double> sky_error;      ///< of a node's whole sky
-    std::vector<std::uint64_t> exits;   ///< lines that left each node
+    std::vector<std::uint64_t> exits;   ///< lines that left each node, weighed, rounded up
 
     double rms_factor = 0;  ///< √(Σ_i A_i Σ_j σ_ij² / Σ_i A_i), σ_ij standard error of F_ij
     double rms_sky = 0;     ///< √(Σ_i A_i σ_i² / Σ_i A_i), of the whole sky

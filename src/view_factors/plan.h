@@ -8,7 +8,7 @@ namespace parallux {
 std::uint32_t choose_groups(const FactorSettings& settings);
 
 /// δ. The error of directions falls as the bundles D of a lattice, that of places as the root of D
-/// and the lines a patch c to the power 3/4: both fall alike where c grows as D to the power 2/3.
+/// and with the lines a patch, which cost time: in a city these grow best as the third root of D.
 double choose_spacing(const Scene& scene, const Patches& patches, const FactorSettings& settings,
                       std::uint32_t groups);
 

@@ -117,8 +117,8 @@ std::string blocks(int n) {
 
 }  // namespace
 
-// The peak is 70 to 100 % of what was foretold. Planted, each seen to fail: 30 bytes a pair;
-// a base of 20 MiB; pairs that are yet to be found not counted.
+// The peak is 70 to 100 % of what was foretold. Planted, seen to fail: 64 MiB in place of 88 and 16
+// numbers a node in place of 64, as was stated before.
 TEST_CASE("factors foretell the memory that they take, from 1000 to 20 000 facets") {
     Workplace place;
     for (const int n : {7, 20, 29})

@@ -117,9 +117,9 @@ Judged judge(const std::vector<Factors>& all, const Truth& truth, std::size_t fl
 }  // namespace
 
 // Runs are independent, cells of one are not: bounds come from the spread over 64 runs, three
-// comparisons at 1e-3 together. Planted, each seen to fail: the spread of a group in place of that
-// of a mean (errors.cpp without the division by groups - 1, times eight the other way); all groups
-// with one seed (counting.cpp), which states errors of 0; the squares of a group's pairs not added.
+// comparisons at 1e-3 together. Planted, each seen to fail: the variance of a mean divided by the
+// groups once more (errors.cpp), with which 0.59 held; all groups with one seed (counting.cpp),
+// which states errors of 0.
 TEST_CASE("stated errors hold the truth as often as they say") {
     constexpr std::uint32_t cells = 4;
     constexpr std::size_t count = 64, floor = cells * cells;
