@@ -154,12 +154,6 @@ private:
 thread_local bool LoopWatch::within_ = false;
 thread_local double LoopWatch::total_ = 0;
 
-#ifndef PARALLUX_STD_THREADS
-// More threads than processors may be asked for. TBB takes note of what it may start when its first
-// arena is made, whoever makes it, and complains on standard error of all that want more.
-const tbb::global_control more_than_processors{tbb::global_control::max_allowed_parallelism, 1024};
-#endif
-
 }  // namespace
 
 // Workers that take part in one loop after another. The owner publishes a loop and closes it again
@@ -171,6 +165,7 @@ public:
         for (unsigned worker = 1; worker < threads; ++worker)
             members_.emplace_back([this, worker] { serve(worker); });
 #else
+        // More threads than cores, for tests, must be allowed first.
         arena_.execute([&] {
             for (unsigned worker = 1; worker < threads; ++worker)
                 members_.run([this, worker] { serve(worker); });
@@ -255,6 +250,8 @@ private:
 #ifdef PARALLUX_STD_THREADS
     std::vector<std::thread> members_;
 #else
+    tbb::global_control allowed_{tbb::global_control::max_allowed_parallelism,
+                                 std::max(threads_, std::thread::hardware_concurrency())};
     tbb::task_arena arena_{static_cast<int>(threads_)};
     tbb::task_group members_;
 #endif

@@ -24,6 +24,7 @@ inline constexpr std::uint64_t first_shot = std::uint64_t(3) << 56;
 inline constexpr std::uint64_t particles = std::uint64_t(4) << 56;
 inline constexpr std::uint64_t local_gather = std::uint64_t(5) << 56;
 inline constexpr std::uint64_t sensors = std::uint64_t(6) << 56;
+inline constexpr std::uint64_t trial_rays = std::uint64_t(7) << 56;
 }  // namespace stream
 
 class Random {

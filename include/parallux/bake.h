@@ -28,6 +28,9 @@ struct BakeSettings {
     bool flat = false;    ///< each cell's own value, unsmoothed
     bool unlit = false;   ///< ready to view: exposed, clamped to [0, 1], KHR_materials_unlit
     double exposure = 0;  ///< unlit: stops on top of the automatic exposure
+    /// Leave the pictures of materials that have one and emit nothing out of radiosity and
+    /// radiance: glTF then carries the picture, which colours multiply. Of PLY false.
+    bool textures = false;
     unsigned threads = 0;
 };
 
@@ -49,8 +52,9 @@ struct Bake {
     BakeSettings settings;
     double factor = 1;  ///< colours = factor × quantity; other than 1 only where unlit
     std::vector<glm::vec3> positions, normals, colours;
-    std::vector<glm::vec2> uv0, uv1;  ///< empty, or one a vertex: the scene's own, the lightmap's
-    std::vector<BakePart> parts;      ///< by object, material and sides
+    /// Empty, or one a vertex: the scene's first, the lightmap's, the scene's second.
+    std::vector<glm::vec2> uv0, uv1, uv2;
+    std::vector<BakePart> parts;  ///< by object, material and sides
 };
 
 /// Values at the mesh's vertices: irradiance as pictures interpolate it, reflectance and emission
@@ -59,7 +63,8 @@ struct Bake {
 Bake make_bake(const Scene& scene, const Patches& patches, const Solution& solution,
                const BakeSettings& settings);
 
-/// Writes .glb or .gltf (COLOR_0 as float, buffers inside the one file) or .ply (binary little
+/// Writes .glb or .gltf (COLOR_0 as float, times a power of two where any is above 1; buffers and
+/// pictures inside the one file) or .ply (binary little
 /// endian, float red green blue). Quantity, unit, colour space and exposure stand in glTF's extras
 /// and PLY's comments. The file is whole or untouched; throws Fault::output.
 void write_bake(const std::filesystem::path& file, const Scene& scene, const Bake& bake);

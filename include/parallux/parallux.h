@@ -10,6 +10,7 @@
 #include "parallux/patches.h"
 #include "parallux/picture.h"
 #include "parallux/predict.h"
+#include "parallux/result.h"
 #include "parallux/scene.h"
 #include "parallux/sensors.h"
 #include "parallux/solve.h"

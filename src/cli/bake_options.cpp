@@ -35,6 +35,14 @@ void add_bake_shape(CLI::App& app, CLI::Option* bake, SolveOptions& o) {
                                     {"radiosity", Quantity::radiosity},
                                     {"radiance", Quantity::radiance}});
     });
+    option("--bake-textures", "T",
+           "keep (glTF carries the scene's pictures, colours multiply them), or bake: colours "
+           "hold them, at vertices [keep]",
+           [&](auto& v) {
+               o.bake.textures =
+                   parse_choice<bool>("--bake-textures", v, {{"keep", true}, {"bake", false}});
+           })
+        ->needs(bake);
     app.add_flag("--unlit", o.bake.unlit,
                  "Ready to view: exposed, clamped to 1, KHR_materials_unlit")
         ->needs(bake)
@@ -45,12 +53,14 @@ void add_bake_shape(CLI::App& app, CLI::Option* bake, SolveOptions& o) {
 void add_lightmap_shape(CLI::App& app, CLI::Option* lightmap, SolveOptions& o) {
     const OptionGroup option{app, "Bake"};
     option("--lightmap-uv", "UV",
-           "pack (a chart a surface), or own: the TEXCOORD_1 of a glTF scene [pack]",
+           "pack (a chart a surface), own: the TEXCOORD_1 of a glTF scene, in one picture, or "
+           "objects: the same with a picture for each object, FILE_OBJECT.exr [pack]",
            [&](auto& v) {
-               o.lightmap_settings.own_uv = o.load.lightmap_uv =
-                   parse_choice<bool>("--lightmap-uv", v, {{"pack", false}, {"own", true}});
-           })
-        ->needs(lightmap);
+               const int kind =
+                   parse_choice<int>("--lightmap-uv", v, {{"pack", 0}, {"own", 1}, {"objects", 2}});
+               o.lightmap_settings.own_uv = o.load.lightmap_uv = kind > 0;
+               o.lightmap_settings.by_object = kind == 2;
+           });
     option("--lightmap-size", "N", "Texels wide and high [a texel a patch; with own 1024]",
            [&](auto& v) {
                o.lightmap_settings.size =

@@ -49,19 +49,6 @@ void add_measurements(CLI::App& app, SolveOptions& o) {
     add(app, group, "--receivers", "NAMES",
         "Only objects or materials of these names in the table; the others still take part",
         [&](auto& v) { o.receivers = parse_names("--receivers", v); });
-    auto* fluxes = add(app, group, "--fluxes", "FILE.csv",
-                       "Net long-wave fluxes with --temperatures: incoming, outgoing, net",
-                       [&](auto& v) { o.fluxes = parse_output("--fluxes", v); });
-    add(app, group, "--fluxes-by", "UNIT",
-        "A row for each patch, surface, object or material [object]",
-        [&](auto& v) {
-            o.flux_unit = parse_choice<FluxUnit>("--fluxes-by", v,
-                                                 {{"patch", FluxUnit::patch},
-                                                  {"surface", FluxUnit::surface},
-                                                  {"object", FluxUnit::object},
-                                                  {"material", FluxUnit::material}});
-        })
-        ->needs(fluxes);
     auto* sensors = add(app, group, "--sensors", "F.csv",
                         "Points that measure irradiance: x,y,z,nx,ny,nz and, if any, name",
                         [&](auto& v) { o.sensors = parse_output("--sensors", v); });
@@ -83,6 +70,23 @@ void add_measurements(CLI::App& app, SolveOptions& o) {
                 refuse("--band", v, "expected one band or three");
         })
         ->needs("--image");
+}
+
+void add_fluxes(CLI::App& app, SolveOptions& o) {
+    const char* group = "Outputs";
+    auto* fluxes = add(app, group, "--fluxes", "FILE.csv",
+                       "Net long-wave fluxes with --temperatures: incoming, outgoing, net",
+                       [&](auto& v) { o.fluxes = parse_output("--fluxes", v); });
+    add(app, group, "--fluxes-by", "UNIT",
+        "A row for each patch, surface, object or material [object]",
+        [&](auto& v) {
+            o.flux_unit = parse_choice<FluxUnit>("--fluxes-by", v,
+                                                 {{"patch", FluxUnit::patch},
+                                                  {"surface", FluxUnit::surface},
+                                                  {"object", FluxUnit::object},
+                                                  {"material", FluxUnit::material}});
+        })
+        ->needs(fluxes);
 }
 
 void settle_changes(SolveOptions& o) {

@@ -25,31 +25,6 @@ std::vector<std::filesystem::path> files_of(const FactorsOptions& options) {
     return files;
 }
 
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code error;
-    return (std::filesystem::equivalent(a, b, error) && !error) ||
-           std::filesystem::absolute(a).lexically_normal() ==
-               std::filesystem::absolute(b).lexically_normal();
-}
-
-// Before anything is computed: all can be written, none twice, none over the scene.
-void check_files(const FactorsOptions& options) {
-    const std::vector<std::filesystem::path> files = files_of(options);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-        if (same_file(files[i], options.scene))
-            throw Error(Fault::usage,
-                        files[i].string() + ": is the scene itself; choose another output name");
-        for (std::size_t j = 0; j < i; ++j)
-            if (same_file(files[i], files[j]))
-                throw Error(Fault::usage,
-                            files[i].string() + ": is named for two outputs; choose another name");
-    }
-    for (const std::filesystem::path& file : files) {
-        WritingFile guard;
-        check_writable(file);
-    }
-}
-
 void write_files(const FactorsOptions& options, const Scene& scene, const Patches& patches,
                  const Factors& factors, FactorRun& run) {
     const double before = seconds_since_start();
@@ -94,7 +69,7 @@ std::string summary(const FactorsOptions& options, const Factors& factors, const
 }  // namespace
 
 int find_factors(const FactorsOptions& options) {
-    check_files(options);
+    check_files(files_of(options), {options.scene}, options.scene);
     FactorRun run;
     Scene scene = load_scene(options.scene, options.load);
     if (!options.exclude.empty())

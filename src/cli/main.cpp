@@ -1,12 +1,12 @@
 #include <functional>
 #include <optional>
 
-#include "cli/changes.h"
 #include "cli/factors.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/prepare.h"
 #include "cli/progress.h"
 #include "cli/refresh.h"
 #include "cli/summary.h"
@@ -33,20 +33,9 @@ bool target_met(const SolveSettings& settings, const Solution& solution) {
     return false;
 }
 
-int solve_scene(const SolveOptions& options) {
-    check_outputs(options);
-    Scene scene = load_scene(options.scene, options.load);
-    change_scene(options, scene);
-    check_camera(options, scene);
-    Measurements measured;
-    if (!options.sensors.empty())
-        measured.sensors = read_sensors(options.sensors, options.load.scale);
-    if (!options.receivers.empty())
-        measured.receivers = named_surfaces(scene, options.receivers, "--receivers");
-    const double loaded = seconds_since_start();
-    Patches patches = make_patches(scene, options.patches);
-    change_patches(options, patches);
-    const double divided = seconds_since_start();
+int solve_scene(SolveOptions options) {
+    Prepared prepared = prepare(options);
+    auto& [scene, patches, measured, loaded, divided] = prepared;
 
     keep_results();
     ProgressReport report(options.progress, options.quiet);
@@ -90,6 +79,8 @@ int run(const Options& options) {
             return 0;
         case Command::solve:
             return solve_scene(options.solve);
+        case Command::reuse:
+            return reuse_result(options.reuse);
         case Command::factors:
             return find_factors(options.factors);
         case Command::compare:

@@ -16,7 +16,10 @@ void add_patches(CLI::App& app, PatchSettings& patches);
 /// The method, how long it runs, and its lines.
 void add_method(CLI::App& app, SolveSettings& settings);
 
-/// Threads, memory, time, and what is told meanwhile.
+/// Threads and what is told, of all that makes outputs.
+void add_workers(CLI::App& app, SolveOptions& options);
+
+/// The same, memory, time, and what is told meanwhile.
 void add_run(CLI::App& app, SolveOptions& options);
 
 }  // namespace parallux

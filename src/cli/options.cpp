@@ -6,6 +6,7 @@
 #include "cli/change_options.h"
 #include "cli/method_options.h"
 #include "cli/output_options.h"
+#include "cli/reuse_options.h"
 #include "cli/scene_options.h"
 #include "cli/sky_options.h"
 #include "cli/values.h"
@@ -42,39 +43,6 @@ void add_unavailable(CLI::App& app) {
             ->group("");
 }
 
-/// What single options cannot know of each other. Lengths become metres here, when --scale is read.
-void settle(SolveOptions& o) {
-    auto contradict = [](bool wrong, const char* what) {
-        if (wrong)
-            throw Error(Fault::usage, what);
-    };
-    contradict(o.quiet && o.progress == ProgressMode::on,
-               "--quiet and --progress on exclude each other");
-    bool shot_by_rays =
-        o.solve.first_shot == FirstShot::rays || o.solve.first_shot == FirstShot::automatic;
-    contradict(!shot_by_rays && o.solve.first_shot_rays > 0,
-               "--first-shot-rays needs --first-shot rays");
-    contradict(o.refresh > 0 && (o.solve.method != Method::bundles || o.solve.groups == 1),
-               "--refresh needs --method bundles and more than one group");
-    bool independent = o.solve.method == Method::lines || o.solve.method == Method::matrix;
-    contradict(!independent && o.solve.sphere_radius > 0,
-               "--sphere-radius needs --method lines or matrix");
-    const bool bakes = !o.bakes.empty() || !o.lightmap.empty();
-    contradict(o.picture.exposure != 0 && o.images.empty() && !o.bake.unlit,
-               "--exposure needs --image, or --bake with --unlit");
-    contradict(o.picture.flat && o.images.empty() && !bakes,
-               "--flat needs --image, --bake or --lightmap");
-    contradict(o.bake.quantity != Quantity::radiosity && !bakes,
-               "--quantity needs --bake or --lightmap");
-    o.bake.flat = o.lightmap_settings.flat = o.picture.flat;
-    settle_sky(o.load.sky);
-    if (o.quiet && o.progress == ProgressMode::automatic)
-        o.progress = ProgressMode::off;
-    settle_changes(o);
-    for (double* length : {&o.patches.size, &o.solve.line_spacing, &o.solve.sphere_radius})
-        *length *= o.load.scale;
-}
-
 CLI::App* add_info(CLI::App& app, InfoOptions& o) {
     auto* info = app.add_subcommand("info", "Say what a scene holds");
     add_scene(*info, o.scene, o.load);
@@ -108,8 +76,10 @@ CLI::App* add_solve(CLI::App& app, SolveOptions& o) {
     add_scene(*solve, o.scene, o.load);
     add_changes(*solve, o);
     add_outputs(*solve, o);
+    add_run_outputs(*solve, o);
     add_bakes(*solve, o);
     add_measurements(*solve, o);
+    add_fluxes(*solve, o);
     add_patches(*solve, o.patches);
     add_method(*solve, o.solve);
     add_run(*solve, o);
@@ -131,8 +101,11 @@ CLI::App* add_compare(CLI::App& app, CompareOptions& o) {
 std::vector<std::filesystem::path> SolveOptions::outputs() const {
     std::vector<std::filesystem::path> files = images;
     files.insert(files.end(), bakes.begin(), bakes.end());
+    files.insert(files.end(), object_lightmaps.begin(), object_lightmaps.end());
+    const std::filesystem::path shared =
+        lightmap_settings.by_object ? std::filesystem::path() : lightmap;
     for (const std::filesystem::path& file :
-         {table, fluxes, sensor_table, stats, lightmap, lightmap_mesh(lightmap)})
+         {save, table, fluxes, sensor_table, stats, shared, lightmap_mesh(lightmap)})
         if (!file.empty())
             files.push_back(file);
     return files;
@@ -140,7 +113,8 @@ std::vector<std::filesystem::path> SolveOptions::outputs() const {
 
 std::vector<std::filesystem::path> SolveOptions::inputs() const {
     std::vector<std::filesystem::path> files = {scene};
-    for (const std::filesystem::path& file : {changes.materials, changes.temperatures, sensors})
+    for (const std::filesystem::path& file :
+         {result, changes.materials, changes.temperatures, sensors})
         if (!file.empty())
             files.push_back(file);
     return files;
@@ -154,6 +128,8 @@ Options parse_options(int argc, const char* const* argv) {
     app.require_subcommand(1);
     auto* info = add_info(app, options.info);
     auto* solve = add_solve(app, options.solve);
+    auto* render = add_render(app, options.reuse);
+    auto* bake = add_bake(app, options.reuse);
     add_compare(app, options.compare);
     auto* factors = add_factors(app, options.factors);
     try {
@@ -167,18 +143,25 @@ Options parse_options(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         auto chosen = app.get_subcommands();
         if (chosen.empty() && dynamic_cast<const CLI::RequiredError*>(&error))
-            throw Error(Fault::usage,
-                        "expected info, solve, factors or compare; try parallux --help");
+            throw Error(
+                Fault::usage,
+                "expected info, solve, render, bake, factors or compare; try parallux --help");
         throw Error(Fault::usage, std::string(error.what()) + "; try parallux " +
                                       (chosen.empty() ? "" : chosen[0]->get_name() + " ") +
                                       "--help");
     }
+    const bool reuse = render->parsed() || bake->parsed();
     options.command = info->parsed()      ? Command::info
                       : solve->parsed()   ? Command::solve
+                      : reuse             ? Command::reuse
                       : factors->parsed() ? Command::factors
                                           : Command::compare;
-    if (options.command == Command::solve)
+    if (options.command == Command::solve) {
+        options.solve.scene_arguments = scene_arguments(*solve);
         settle(options.solve);
+    }
+    if (reuse)  // settled when the result's own options are known
+        options.reuse.scene_arguments = scene_arguments(render->parsed() ? *render : *bake);
     if (options.command == Command::factors)
         settle(options.factors);
     settle_sky(options.info.load.sky);

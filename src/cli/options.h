@@ -11,7 +11,7 @@
 
 namespace parallux {
 
-enum class Command { print, info, solve, compare, factors };
+enum class Command { print, info, solve, reuse, compare, factors };
 enum class ProgressMode { automatic, on, off, json };
 
 struct InfoOptions {
@@ -44,14 +44,20 @@ struct SolveOptions {
     std::vector<std::filesystem::path> images;
     double refresh = 0;  ///< seconds between pictures while the run goes on; 0: none
     std::vector<std::filesystem::path> bakes;
-    BakeSettings bake;
+    BakeSettings bake = {.textures = true};  ///< of glTF; PLY knows no textures
     LightmapSettings lightmap_settings;
     std::filesystem::path table, stats, lightmap;  ///< empty: not wanted
-    std::vector<std::string> receivers;            ///< of the table; empty: all
-    std::filesystem::path fluxes;                  ///< empty: not wanted
+    /// Of by_object, one an object that has surfaces: set when the scene is known.
+    std::vector<std::filesystem::path> object_lightmaps;
+    std::vector<std::string> receivers;  ///< of the table; empty: all
+    std::filesystem::path fluxes;        ///< empty: not wanted
     FluxUnit flux_unit = FluxUnit::object;
     std::filesystem::path sensors, sensor_table;  ///< empty: none
     SensorSettings sensing;
+    std::filesystem::path save;    ///< the solution in a file; empty: not wanted
+    std::filesystem::path result;  ///< such a file that outputs are made from; empty: solve
+    /// What was typed of scene, its changes and patches, without the scene's name.
+    std::vector<std::string> scene_arguments;
     ProgressMode progress = ProgressMode::automatic;
     bool quiet = false;
 
@@ -71,6 +77,7 @@ struct Options {
     std::string text;  ///< to print: help or version
     InfoOptions info;
     SolveOptions solve;
+    SolveOptions reuse;
     CompareOptions compare;
     FactorsOptions factors;
 };
@@ -78,5 +85,8 @@ struct Options {
 /// Reads the command line. Lengths are scaled to metres. Throws Fault::usage naming the option and
 /// the value.
 Options parse_options(int argc, const char* const* argv);
+
+/// What single options cannot know of each other; lengths become metres. Once. Throws Fault::usage.
+void settle(SolveOptions& options);
 
 }  // namespace parallux

@@ -37,11 +37,6 @@ void add_picture(CLI::App& app, CLI::Option* image, SolveOptions& o) {
     of_picture(option("--samples", "N", "Camera rays a pixel [16]", [&](auto& v) {
         picture.samples = static_cast<std::uint32_t>(parse_count("--samples", v, 1, 65536));
     }));
-    of_picture(
-        option("--refresh", "S",
-               "Rewrite the pictures while the run goes on, with what the groups of bundles done "
-               "so far come to, at most every S seconds [off]",
-               [&](auto& v) { o.refresh = parse_positive("--refresh", v); }));
     app.add_flag("--flat", picture.flat, "Show the patches unsmoothed, in bakes as well")
         ->group("Picture");
 }
@@ -64,6 +59,23 @@ void add_outputs(CLI::App& app, SolveOptions& o) {
     option("--stats", "FILE.json", "Counts, seconds, energy balance, hash of the run",
            [&](auto& v) { o.stats = parse_output("--stats", v); });
     add_picture(app, image, o);
+}
+
+void add_run_outputs(CLI::App& app, SolveOptions& o) {
+    OptionGroup{app, "Outputs"}(
+        "--save", "FILE.plx",
+        "The solution, for parallux render and bake to make outputs from without solving again",
+        [&](auto& v) {
+            o.save = parse_output("--save", v);
+            if (o.save.extension() != ".plx")
+                refuse("--save", v, "expected a name that ends in .plx");
+        });
+    OptionGroup{app, "Picture"}(
+        "--refresh", "S",
+        "Rewrite the pictures while the run goes on, with what the groups of bundles done so far "
+        "come to, at most every S seconds [off]",
+        [&](auto& v) { o.refresh = parse_positive("--refresh", v); })
+        ->needs("--image");
 }
 
 }  // namespace parallux

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <optional>
 
 #include "cli/interrupt.h"
 #include "output/output_file.h"
@@ -46,21 +47,61 @@ private:
     std::exception_ptr failure_;
 };
 
+// The solution is lent, not copied: it may be most of the memory.
+void save(const SolveOptions& options, const Scene& scene, const Patches& patches,
+          Solution& solution, double seconds) {
+    solution.seconds.total = seconds;
+    SavedSolution result{PARALLUX_VERSION, scene_hash(scene, patches), options.scene_arguments,
+                         options.solve, std::move(solution)};
+    Attempts attempt;
+    attempt([&] {
+        WritingFile guard;
+        write_result(options.save, result);
+    });
+    solution = std::move(result.solution);
+    attempt.rethrow();
+}
+
+void write_lightmaps(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                     const Solution& solution) {
+    const LightmapSettings& settings = options.lightmap_settings;
+    if (!settings.by_object) {
+        const Lightmap lightmap = make_lightmap(scene, patches, solution, settings);
+        WritingFile guard;
+        return write_lightmap(options.lightmap, scene, lightmap);
+    }
+    const auto pictures = object_lightmaps(options.lightmap, scene);
+    const Bake mesh = own_uv_mesh(scene, patches, settings);
+    Attempts attempt;
+    make_object_lightmaps(scene, patches, solution, settings, [&](const Lightmap& lightmap) {
+        attempt([&] {
+            WritingFile guard;
+            write_lightmap_picture(pictures[lightmap.object], scene, lightmap);
+        });
+    });
+    attempt([&] {
+        WritingFile guard;
+        write_lightmap_mesh(lightmap_mesh(options.lightmap), scene, mesh, pictures);
+    });
+    attempt.rethrow();
+}
+
 }  // namespace
 
 double seconds_since_start() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check_outputs(const SolveOptions& options) {
-    const std::vector<std::filesystem::path> files = options.outputs();
+void check_files(const std::vector<std::filesystem::path>& files,
+                 const std::vector<std::filesystem::path>& inputs,
+                 const std::filesystem::path& scene) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-        for (const std::filesystem::path& input : options.inputs())
+        for (const std::filesystem::path& input : inputs)
             if (same_file(files[i], input))
-                throw Error(Fault::usage, files[i].string() +
-                                              (input == options.scene ? ": is the scene itself"
-                                                                      : ": is read from") +
-                                              "; choose another output name");
+                throw Error(Fault::usage,
+                            files[i].string() +
+                                (input == scene ? ": is the scene itself" : ": is read from") +
+                                "; choose another output name");
         for (std::size_t j = 0; j < i; ++j)
             if (same_file(files[i], files[j]))
                 throw Error(Fault::usage,
@@ -70,6 +111,10 @@ void check_outputs(const SolveOptions& options) {
         WritingFile guard;
         check_writable(file);
     }
+}
+
+void check_outputs(const SolveOptions& options) {
+    check_files(options.outputs(), options.inputs(), options.scene);
 }
 
 void check_camera(const SolveOptions& options, Scene& scene) {
@@ -97,13 +142,21 @@ void write_images(const SolveOptions& options, const Scene& scene, const Patches
 
 void write_bakes(const SolveOptions& options, const Scene& scene, const Patches& patches,
                  const Solution& solution) {
-    const Bake bake = make_bake(scene, patches, solution, options.bake);
+    // Pictures go into glTF alone: where there are any, PLY has colours of its own.
     Attempts attempt;
-    for (const std::filesystem::path& file : options.bakes)
+    std::optional<Bake> with_pictures, plain;
+    for (const std::filesystem::path& file : options.bakes) {
+        BakeSettings settings = options.bake;
+        settings.textures =
+            settings.textures && file.extension() != ".ply" && !scene.textures.empty();
+        std::optional<Bake>& bake = settings.textures ? with_pictures : plain;
+        if (!bake)
+            bake = make_bake(scene, patches, solution, settings);
         attempt([&] {
             WritingFile guard;
-            write_bake(file, scene, bake);
+            write_bake(file, scene, *bake);
         });
+    }
     attempt.rethrow();
 }
 
@@ -111,6 +164,8 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
                    Solution& solution, const Measurements& measured) {
     const double before = seconds_since_start();
     Attempts attempt;
+    if (!options.save.empty())
+        attempt([&] { save(options, scene, patches, solution, before); });
     if (!options.table.empty())
         attempt([&] {
             WritingFile guard;
@@ -133,14 +188,11 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
     if (!options.bakes.empty())
         attempt([&] { write_bakes(options, scene, patches, solution); });
     if (!options.lightmap.empty())
-        attempt([&] {
-            const Lightmap lightmap =
-                make_lightmap(scene, patches, solution, options.lightmap_settings);
-            WritingFile guard;
-            write_lightmap(options.lightmap, scene, lightmap);
-        });
-    solution.seconds.total = seconds_since_start();
-    solution.seconds.output = solution.seconds.total - before;
+        attempt([&] { write_lightmaps(options, scene, patches, solution); });
+    if (options.result.empty()) {  // else the times are those of the solve
+        solution.seconds.total = seconds_since_start();
+        solution.seconds.output = solution.seconds.total - before;
+    }
     if (!options.stats.empty())
         attempt([&] {
             WritingFile guard;

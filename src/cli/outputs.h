@@ -4,8 +4,12 @@
 
 namespace parallux {
 
-/// Before anything is computed: every output can be written, no two are the same file, none is the
-/// scene. Throws Fault::usage or Fault::output.
+/// Before anything is computed: every file can be written, no two are the same, none is an input,
+/// of which the scene is one. Throws Fault::usage or Fault::output.
+void check_files(const std::vector<std::filesystem::path>& files,
+                 const std::vector<std::filesystem::path>& inputs,
+                 const std::filesystem::path& scene);
+/// The same of all that solve writes and reads.
 void check_outputs(const SolveOptions& options);
 
 /// Where a picture is wanted: the camera exists, or a warning says that the scene has none and how

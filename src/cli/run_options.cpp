@@ -20,7 +20,7 @@ void add_patches(CLI::App& app, PatchSettings& patches) {
         ->group(option.name);
 }
 
-void add_run(CLI::App& app, SolveOptions& o) {
+void add_workers(CLI::App& app, SolveOptions& o) {
     const OptionGroup option{app, "Run"};
     option("--threads", "T", "0: all [0]", [&](auto& v) {
         o.solve.threads = static_cast<unsigned>(parse_count("--threads", v, 0, 4096));
@@ -34,6 +34,13 @@ void add_run(CLI::App& app, SolveOptions& o) {
                           "expected auto, plain, sse4, avx2 or avx512, as far as this "
                           "machine has them");
            });
+    app.add_flag("--quiet", o.quiet, "No progress, summary or warnings; failures are still told")
+        ->group(option.name);
+}
+
+void add_run(CLI::App& app, SolveOptions& o) {
+    add_workers(app, o);
+    const OptionGroup option{app, "Run"};
     option("--max-memory", "M", "Refuse to start a solve above this: 500M, 4GiB [no limit]",
            [&](auto& v) { o.solve.max_memory = parse_bytes("--max-memory", v); });
     option("--time-limit", "S", "Seconds after which to stop with a partial result [none]",
@@ -46,8 +53,6 @@ void add_run(CLI::App& app, SolveOptions& o) {
                                                         {"off", ProgressMode::off},
                                                         {"json", ProgressMode::json}});
            });
-    app.add_flag("--quiet", o.quiet, "No progress, summary or warnings; failures are still told")
-        ->group(option.name);
 }
 
 }  // namespace parallux

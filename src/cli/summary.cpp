@@ -54,6 +54,29 @@ std::string how_followed(Method method, const Solution& solution) {
     return ", counted";
 }
 
+std::string error_of(const Solution& solution) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    if (solution.groups > 1)
+        text << "error    " << std::setprecision(3) << 100 * solution.relative_rms
+             << " % relative RMS, below " << 100 * solution.relative_rms_bound
+             << " % with 95 % confidence\n";
+    return text.str();
+}
+
+std::string wrote(const SolveOptions& options) {
+    std::string text;
+    for (const std::filesystem::path& file : options.outputs())
+        text += "wrote    " + printable(file.string()) + "\n";
+    return text;
+}
+
+void tell_warnings(const Scene& scene, const Solution& solution) {
+    for (const auto* warnings : {&scene.warnings, &solution.warnings})
+        for (const std::string& warning : *warnings)
+            complain("warning: " + warning);
+}
+
 std::string summary(const SolveOptions& options, const Patches& patches, const Solution& solution) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
@@ -68,14 +91,10 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
              << solution.threads << " threads";
     text << '\n';
     text << "energy   " << energy(solution.energy) << '\n';
-    if (solution.groups > 1)
-        text << "error    " << std::setprecision(3) << 100 * solution.relative_rms
-             << " % relative RMS, below " << 100 * solution.relative_rms_bound
-             << " % with 95 % confidence\n";
+    text << error_of(solution);
     text << "leaks    " << solution.leaks << '\n';
     text << "time     " << std::fixed << std::setprecision(2) << solution.seconds.total << " s\n";
-    for (const std::filesystem::path& file : options.outputs())
-        text << "wrote    " << printable(file.string()) << '\n';
+    text << wrote(options);
     if (solution.partial)
         text << "partial  stopped before all lines were done\n";
     return text.str();
@@ -83,12 +102,22 @@ std::string summary(const SolveOptions& options, const Patches& patches, const S
 
 }  // namespace
 
+void tell_reuse(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                const SavedSolution& result) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    const Solution& solution = result.solution;
+    text << "patches  " << patches.count() << '\n' << error_of(solution) << wrote(options);
+    if (solution.partial)
+        text << "partial  the solve stopped before all lines were done\n";
+    print(text.str());
+    tell_warnings(scene, solution);
+}
+
 void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
                   const Solution& solution) {
     print(summary(options, patches, solution));
-    for (const auto* warnings : {&scene.warnings, &solution.warnings})
-        for (const std::string& warning : *warnings)
-            complain("warning: " + warning);
+    tell_warnings(scene, solution);
 }
 
 std::string describe_fluxes(const Fluxes& fluxes) {

@@ -10,6 +10,10 @@ namespace parallux {
 void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
                   const Solution& solution);
 
+/// The same on outputs made from a result.
+void tell_reuse(const SolveOptions& options, const Scene& scene, const Patches& patches,
+                const SavedSolution& result);
+
 /// A line on the balance of net fluxes.
 std::string describe_fluxes(const Fluxes& fluxes);
 

@@ -12,6 +12,9 @@ namespace parallux {
 
 namespace {
 
+// Planes closer than this, in radii, are meant to be one: what is left of coordinates in 24 bits.
+constexpr double coordinate_rounding = 1e-6;
+
 struct Lattice {
     std::int64_t x, y;  // fixed point
 };
@@ -104,20 +107,25 @@ bool TieOrder::before(const Hit& a, const Hit& b) const {
                      exact_depth(projection_, scene_, centre_, b.surface, column_, row_);
     if (std::fabs(difference) > same)
         return difference < 0;
+    // Where snapping cannot tell, their own planes can: a lamp close below a ceiling, panels that
+    // lean on each other.
+    double gap = 0, across = 0;
+    if (relation == SurfaceRelations::parallel) {
+        gap = plane_depth(projection_, scene_, centre_, a.surface, column_, row_) -
+              plane_depth(projection_, scene_, centre_, b.surface, column_, row_);
+        across = gap * glm::dot(projection_.bundle.direction,
+                                surface_normal(scene_, scene_.surfaces[a.surface]));
+    }
+    if (std::fabs(across) > coordinate_rounding)
+        return gap < 0;
     // In one place: the air lies between a floor and what stands on it, so that the one met from
     // behind comes first; but a line along the edge of a solid enters it before it leaves.
     if (from_behind(a) != from_behind(b))
         return from_behind(a) !=
                (relation == SurfaceRelations::touching &&
                 convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
-    // Both met from one side (a lamp close below a ceiling): where snapping cannot tell, their own
-    // planes can.
-    if (relation == SurfaceRelations::parallel) {
-        const double gap = plane_depth(projection_, scene_, centre_, a.surface, column_, row_) -
-                           plane_depth(projection_, scene_, centre_, b.surface, column_, row_);
-        if (std::fabs(gap) > 1e-9)
-            return gap < 0;
-    }
+    if (std::fabs(gap) > 1e-9)
+        return gap < 0;
     return a.surface < b.surface;
 }
 

@@ -52,9 +52,8 @@ private:
 
 /// The order of two hits of one line that rounding may have turned. Faces that share a corner by
 /// the exact depth of their snapped corners, in which two faces meet along their common edge;
-/// others, which then lie in one place, so that the one met from behind comes first (a solid that
-/// stands on a floor: the gap is between them), and of two met from one side, as a lamp close below
-/// a ceiling, the one whose plane comes first.
+/// others by their own, unsnapped planes; and where those are one, so that the one met from behind
+/// comes first (a solid that stands on a floor: the gap is between them).
 class TieOrder {
 public:
     /// `slack[surface]` is how far snapping may have moved the depths of each.

@@ -28,8 +28,7 @@ public:
         : scene_(scene),
           patches_(patches),
           bake_(bake),
-          values_(scene, patches, solution, bake.settings.quantity, bake.settings.flat,
-                  bake.settings.threads),
+          values_(scene, patches, solution, bake.settings),
           builder_(bake) {}
 
     void run() {
@@ -96,7 +95,12 @@ Bake make_bake(const Scene& scene, const Patches& patches, const Solution& solut
     if (settings.unlit)
         bake.factor = unlit_factor(patches, solution, settings);
     Baker(scene, patches, solution, bake).run();
-    bake.uv0.clear(), bake.uv1.clear();  // no picture goes with vertex colours
+    bake.uv1.clear(), bake.uv2.clear();  // only the scene's own pictures go with vertex colours
+    bool pictures = false;
+    for (const BakePart& part : bake.parts)
+        pictures = pictures || keeps_picture(scene, settings, part.material);
+    if (!pictures)
+        bake.uv0.clear();
     return bake;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace parallux {
@@ -15,7 +16,7 @@ constexpr double crease = 0.35;  // radians; as pictures have it
 
 // All that must be equal, to the bit, for two corners to share a vertex.
 struct Key {
-    std::array<std::uint32_t, 10> bits{};
+    std::array<std::uint32_t, 12> bits{};
     bool operator==(const Key&) const = default;
 };
 
@@ -32,8 +33,8 @@ struct KeyHash {
 
 Key key_of(const BakeCorner& c) {
     const glm::vec3 p(c.position);
-    const float values[10] = {p.x,        p.y,     p.z,     c.colour.x, c.colour.y,
-                              c.colour.z, c.uv0.x, c.uv0.y, c.uv1.x,    c.uv1.y};
+    const float values[12] = {p.x,     p.y,     p.z,     c.colour.x, c.colour.y, c.colour.z,
+                              c.uv0.x, c.uv0.y, c.uv1.x, c.uv1.y,    c.uv2.x,    c.uv2.y};
     Key key;
     for (std::size_t i = 0; i < key.bits.size(); ++i)
         key.bits[i] = std::bit_cast<std::uint32_t>(values[i] + 0.0f);  // -0 and 0 are one place
@@ -118,6 +119,7 @@ void BakeBuilder::finish() {
             bake_.colours.push_back(v.corner.colour);
             bake_.uv0.push_back(v.corner.uv0);
             bake_.uv1.push_back(v.corner.uv1);
+            bake_.uv2.push_back(v.corner.uv2);
         }
         bake_.parts.push_back(std::move(part.part));
     }
@@ -147,6 +149,35 @@ FaceFrame face_frame(const Scene& scene, const Patches& patches, std::uint32_t s
         frame.uv[k] = uv;
     }
     return frame;
+}
+
+FaceFrame scene_frame(const Scene& scene, const Patches& patches, std::uint32_t surface,
+                      bool back) {
+    FaceFrame frame = face_frame(scene, patches, surface, back, none);
+    for (std::uint32_t k = 0; k < frame.face.count; ++k) {
+        BakeCorner& corner = frame.face.corner[k];
+        corner.colour = glm::vec3(1);
+        if (scene.attributes.empty())
+            continue;
+        const SurfaceAttributes& own = scene.attributes[surface];
+        corner.uv2 = affine_at(own.uv1, frame.uv[k]);
+        corner.colour = glm::clamp(affine_at(own.colour, frame.uv[k]), 0.0f, 1.0f);
+    }
+    return frame;
+}
+
+void drop_unused(const Scene& scene, Bake& mesh) {
+    auto white = [](const glm::vec3& colour) { return colour == glm::vec3(1); };
+    if (std::all_of(mesh.colours.begin(), mesh.colours.end(), white))
+        mesh.colours.clear();
+    if (scene.attributes.empty())
+        mesh.uv0.clear();
+    auto second = [](const Material& m) {
+        return (m.reflectance_texture != none && m.reflectance_uv == 1) ||
+               (m.emission_texture != none && m.emission_uv == 1);
+    };
+    if (!std::any_of(scene.materials.begin(), scene.materials.end(), second))
+        mesh.uv2.clear();
 }
 
 }  // namespace parallux

@@ -11,7 +11,7 @@ namespace parallux {
 struct BakeCorner {
     glm::dvec3 position{0}, normal{0};
     glm::vec3 colour{0};
-    glm::vec2 uv0{0}, uv1{0};
+    glm::vec2 uv0{0}, uv1{0}, uv2{0};  ///< as Bake has them
 };
 
 /// A planar face of three or four corners, seen counter-clockwise.
@@ -52,5 +52,10 @@ struct FaceFrame {
 };
 FaceFrame face_frame(const Scene& scene, const Patches& patches, std::uint32_t surface, bool back,
                      std::uint32_t cell);
+
+/// The same for meshes of lightmaps: with the scene's own colours and second coordinates.
+FaceFrame scene_frame(const Scene& scene, const Patches& patches, std::uint32_t surface, bool back);
+/// Takes away from a finished mesh of such frames what the scene has no use for.
+void drop_unused(const Scene& scene, Bake& mesh);
 
 }  // namespace parallux

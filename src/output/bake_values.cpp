@@ -6,15 +6,31 @@
 
 namespace parallux {
 
+namespace {
+
+// Reflectance without the material's picture.
+Spectrum plain_reflectance(const Scene& scene, std::uint32_t surface, double u, double v) {
+    Spectrum rho = scene.materials[scene.surfaces[surface].material].reflectance;
+    if (scene.attributes.empty())
+        return rho;
+    const auto& c = scene.attributes[surface].colour;
+    for (int b = 0; b < 3; ++b)
+        rho[static_cast<std::size_t>(b)] *=
+            static_cast<float>(c[0][b] + u * (c[1][b] - c[0][b]) + v * (c[2][b] - c[0][b]));
+    return rho;
+}
+
+}  // namespace
+
 BakeValues::BakeValues(const Scene& scene, const Patches& patches, const Solution& solution,
-                       Quantity quantity, bool flat, unsigned threads)
+                       const BakeSettings& settings)
     : scene_(scene),
       patches_(patches),
       solution_(solution),
-      quantity_(quantity),
-      rays_(scene, threads) {
-    if (!flat)
-        field_.emplace(scene, patches, solution, rays_, threads);
+      settings_(settings),
+      rays_(scene, settings.threads) {
+    if (!settings.flat)
+        field_.emplace(scene, patches, solution, rays_, settings.threads);
 }
 
 void BakeValues::in_cell(std::uint32_t surface, bool back, std::uint32_t cell, double u, double v,
@@ -27,14 +43,17 @@ void BakeValues::in_cell(std::uint32_t surface, bool back, std::uint32_t cell, d
     else
         for (std::uint32_t b = 0; b < n; ++b)
             values[b] = solution_.irradiance[patch * n + b];
-    if (quantity_ == Quantity::irradiance)
+    if (settings_.quantity == Quantity::irradiance)
         return;
-    // B = E + ρ H, and L = B / π.
-    const Spectrum rho = surface_reflectance(scene_, surface, u, v);
+    // B = E + ρ H, and L = B / π. A picture that is kept is left out of ρ.
+    const bool kept = keeps_picture(scene_, settings_, scene_.surfaces[surface].material);
+    const Spectrum rho = kept ? plain_reflectance(scene_, surface, u, v)
+                              : surface_reflectance(scene_, surface, u, v);
     const Spectrum emission = surface_emission(scene_, surface, u, v);
     for (std::uint32_t b = 0; b < n; ++b) {
-        values[b] = field_ ? emission[b] + rho[b] * values[b] : solution_.radiosity[patch * n + b];
-        if (quantity_ == Quantity::radiance)
+        values[b] =
+            field_ || kept ? emission[b] + rho[b] * values[b] : solution_.radiosity[patch * n + b];
+        if (settings_.quantity == Quantity::radiance)
             values[b] = static_cast<float>(values[b] / pi);
         if (!std::isfinite(values[b]))
             throw Error(Fault::internal, "surface " + std::to_string(surface) +
@@ -48,6 +67,12 @@ void BakeValues::at(std::uint32_t surface, bool back, double u, double v, float*
             cell_at(scene_.surfaces[surface].shape(), grid.nu, grid.nv, static_cast<float>(u),
                     static_cast<float>(v)),
             u, v, values);
+}
+
+bool keeps_picture(const Scene& scene, const BakeSettings& settings, std::uint32_t material) {
+    const Material& m = scene.materials[material];
+    return settings.textures && settings.quantity != Quantity::irradiance && scene.bands == 3 &&
+           m.reflectance_texture != none && m.reflectance_uv == 0 && m.emission == Spectrum{};
 }
 
 glm::vec3 colour_of(const float* values, std::uint32_t bands) {

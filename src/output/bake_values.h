@@ -12,7 +12,7 @@ class BakeValues {
 public:
     /// Keeps references to all. Cost: that of Interpolation, unless flat.
     BakeValues(const Scene& scene, const Patches& patches, const Solution& solution,
-               Quantity quantity, bool flat, unsigned threads);
+               const BakeSettings& settings);
 
     std::uint32_t bands() const { return solution_.bands; }
 
@@ -27,10 +27,13 @@ private:
     const Scene& scene_;
     const Patches& patches_;
     const Solution& solution_;
-    Quantity quantity_;
+    BakeSettings settings_;
     RayScene rays_;
     std::optional<Interpolation> field_;  // none: flat
 };
+
+/// Whether a baked glTF shows a material's own picture, which colours then have to leave out.
+bool keeps_picture(const Scene& scene, const BakeSettings& settings, std::uint32_t material);
 
 /// Three bands as they are, else their mean three times.
 glm::vec3 colour_of(const float* values, std::uint32_t bands);

@@ -106,7 +106,7 @@ void make_mesh(const Scene& scene, const Patches& patches, const std::vector<Cha
     BakeBuilder builder(lightmap.mesh);
     for (std::size_t c = 0; c < grids.size(); ++c) {
         const Chart& chart = lightmap.charts[c];
-        FaceFrame frame = face_frame(scene, patches, chart.surface, chart.back, none);
+        FaceFrame frame = scene_frame(scene, patches, chart.surface, chart.back);
         for (std::uint32_t k = 0; k < frame.face.count; ++k)
             frame.face.corner[k].uv1 =
                 glm::vec2((glm::dvec2(chart.x, chart.y) + grids[c].texel(frame.uv[k])) /
@@ -114,9 +114,14 @@ void make_mesh(const Scene& scene, const Patches& patches, const std::vector<Cha
         builder.add(frame.face);
     }
     builder.finish();
-    lightmap.mesh.colours.clear();
-    if (scene.attributes.empty())
-        lightmap.mesh.uv0.clear();
+    drop_unused(scene, lightmap.mesh);
+}
+
+BakeSettings as_bake(const LightmapSettings& settings) {
+    BakeSettings result;
+    result.quantity = settings.quantity, result.flat = settings.flat;
+    result.threads = settings.threads;
+    return result;
 }
 
 }  // namespace
@@ -127,12 +132,14 @@ Lightmap make_lightmap(const Scene& scene, const Patches& patches, const Solutio
     lightmap.settings = settings;
     lightmap.bands = solution.bands;
     if (settings.own_uv) {
-        paint_own_uv(scene, patches, solution, lightmap);
+        check_own_uv(scene);
+        paint_own_uv(scene, BakeValues(scene, patches, solution, as_bake(settings)), lightmap);
+        lightmap.mesh = own_uv_mesh(scene, patches, settings);
         return lightmap;
     }
     const std::vector<ChartGrid> grids = lay_charts(scene, patches, lightmap);
     lightmap.values.assign(std::size_t(lightmap.width) * lightmap.height * lightmap.bands, 0);
-    BakeValues values(scene, patches, solution, settings.quantity, settings.flat, settings.threads);
+    BakeValues values(scene, patches, solution, as_bake(settings));
     ChartPainter painter(scene, patches, values, lightmap);
     parallel_for(settings.threads, grids.size(), 8, [&](std::size_t b, std::size_t e, unsigned) {
         for (std::size_t chart = b; chart < e; ++chart)
@@ -140,6 +147,25 @@ Lightmap make_lightmap(const Scene& scene, const Patches& patches, const Solutio
     });
     make_mesh(scene, patches, grids, lightmap);
     return lightmap;
+}
+
+void make_object_lightmaps(const Scene& scene, const Patches& patches, const Solution& solution,
+                           const LightmapSettings& settings,
+                           const std::function<void(const Lightmap&)>& take) {
+    check_own_uv(scene);
+    BakeValues values(scene, patches, solution, as_bake(settings));
+    std::vector<bool> used(scene.objects.size());
+    for (const Surface& surface : scene.surfaces)
+        used[surface.object] = true;
+    for (std::uint32_t object = 0; object < used.size(); ++object) {
+        if (!used[object])
+            continue;
+        Lightmap map;
+        map.settings = settings;
+        map.object = object;
+        paint_own_uv(scene, values, map);
+        take(map);
+    }
 }
 
 }  // namespace parallux

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "output/bake_mesh.h"
+#include "output/pieces.h"
 #include "parallel.h"
 #include "parallux/error.h"
 
@@ -91,19 +92,24 @@ void cover(const Placed& triangle, std::uint32_t surface, const Lightmap& map,
         }
 }
 
-void check_own(const Scene& scene) {
-    for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
-        if (s >= scene.lightmap_uv.size() || std::isnan(scene.lightmap_uv[s][0].x)) {
-            const std::uint32_t object = scene.surfaces[s].object;
-            throw Error(Fault::input,
-                        scene.file.string() + ": object '" +
-                            (object < scene.objects.size() ? scene.objects[object] : "") +
-                            "' has no TEXCOORD_1 for a lightmap; use --lightmap-uv pack");
+void cover_surface(const Scene& scene, std::uint32_t s, const Lightmap& map,
+                   std::vector<Seen>& seen) {
+    const glm::dvec2 size(map.width, map.height);
+    const Shape shape = scene.surfaces[s].shape();
+    const CellCorners whole = cell_corners(shape, SurfaceGrid{}, 0);
+    constexpr std::uint32_t corners[2][3] = {{0, 1, 3}, {3, 1, 2}};
+    for (std::uint32_t t = 0; t + 2 < whole.count; ++t) {
+        Placed triangle;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            triangle.uv[k] = whole.uv[whole.count == 3 ? k : corners[t][k]];
+            triangle.at[k] = own_place(scene, s, triangle.uv[k]) * size;
         }
+        cover(triangle, s, map, seen);
+    }
 }
 
 // Layouts made for one picture an object overlap when all share one.
-void check_overlap(const Scene& scene, const std::vector<Seen>& seen) {
+void check_overlap(const Scene& scene, const Lightmap& map, const std::vector<Seen>& seen) {
     std::size_t covered = 0, shared = 0;
     std::uint32_t example = 0;
     for (const Seen& texel : seen) {
@@ -117,46 +123,34 @@ void check_overlap(const Scene& scene, const std::vector<Seen>& seen) {
                         std::to_string(shared) + " of " + std::to_string(covered) +
                         " texels, one of object '" +
                         (example < scene.objects.size() ? scene.objects[example] : "") +
-                        "'); use --lightmap-uv pack");
+                        "'); use --lightmap-uv " +
+                        (map.object == none ? "objects or pack" : "pack"));
 }
 
 }  // namespace
 
-void paint_own_uv(const Scene& scene, const Patches& patches, const Solution& solution,
-                  Lightmap& map) {
-    check_own(scene);
+void check_own_uv(const Scene& scene) {
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
+        if (s >= scene.lightmap_uv.size() || std::isnan(scene.lightmap_uv[s][0].x)) {
+            const std::uint32_t object = scene.surfaces[s].object;
+            throw Error(Fault::input,
+                        scene.file.string() + ": object '" +
+                            (object < scene.objects.size() ? scene.objects[object] : "") +
+                            "' has no TEXCOORD_1 for a lightmap; use --lightmap-uv pack");
+        }
+}
+
+void paint_own_uv(const Scene& scene, const BakeValues& values, Lightmap& map) {
     map.width = map.height = map.settings.size > 0 ? map.settings.size : 1024;
-    map.mesh.settings.quantity = map.settings.quantity;
+    map.bands = values.bands();
     // Find what each texel shows, triangle after triangle.
     std::vector<Seen> seen(std::size_t(map.width) * map.height);
-    BakeBuilder builder(map.mesh);
-    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
-        FaceFrame frame = face_frame(scene, patches, s, false, none);
-        frame.face.both_sides = patches.grids[s].back != none;
-        Placed quad[2];
-        for (std::uint32_t k = 0; k < frame.face.count; ++k)
-            frame.face.corner[k].uv1 = glm::vec2(own_place(scene, s, frame.uv[k]));
-        constexpr std::uint32_t corners[2][3] = {{0, 1, 3}, {3, 1, 2}};
-        for (std::uint32_t t = 0; t + 2 < frame.face.count; ++t) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t c = frame.face.count == 3 ? k : corners[t][k];
-                quad[t].uv[k] = frame.uv[c];
-                quad[t].at[k] =
-                    own_place(scene, s, frame.uv[c]) * glm::dvec2(map.width, map.height);
-            }
-            cover(quad[t], s, map, seen);
-        }
-        builder.add(frame.face);
-    }
-    check_overlap(scene, seen);
-    builder.finish();
-    map.mesh.colours.clear();
-    if (scene.attributes.empty())
-        map.mesh.uv0.clear();
+    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s)
+        if (map.object == none || map.object == scene.surfaces[s].object)
+            cover_surface(scene, s, map, seen);
+    check_overlap(scene, map, seen);
     // Look there.
     map.values.assign(seen.size() * map.bands, 0);
-    BakeValues values(scene, patches, solution, map.settings.quantity, map.settings.flat,
-                      map.settings.threads);
     parallel_for(map.settings.threads, seen.size(), 1024,
                  [&](std::size_t begin, std::size_t end, unsigned) {
                      for (std::size_t i = begin; i < end; ++i)
@@ -164,6 +158,23 @@ void paint_own_uv(const Scene& scene, const Patches& patches, const Solution& so
                              values.at(seen[i].surface, false, seen[i].u, seen[i].v,
                                        &map.values[i * map.bands]);
                  });
+}
+
+Bake own_uv_mesh(const Scene& scene, const Patches& patches, const LightmapSettings& settings) {
+    check_own_uv(scene);
+    Bake mesh;
+    mesh.settings.quantity = settings.quantity;
+    BakeBuilder builder(mesh);
+    for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
+        FaceFrame frame = scene_frame(scene, patches, s, false);
+        frame.face.both_sides = patches.grids[s].back != none;
+        for (std::uint32_t k = 0; k < frame.face.count; ++k)
+            frame.face.corner[k].uv1 = glm::vec2(own_place(scene, s, frame.uv[k]));
+        builder.add(frame.face);
+    }
+    builder.finish();
+    drop_unused(scene, mesh);
+    return mesh;
 }
 
 }  // namespace parallux

@@ -18,4 +18,9 @@ std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patc
 /// unshot for the pass, which begins with settle().
 DirectLight first_shot(const Run& run);
 
+/// Sends a few rays to see how much noise they leave in direct light, and sets the plan's number.
+/// Uses the banks and leaves them empty. O(patches).
+void try_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings,
+              const RayScene& rays, Banks& banks, Listener& listener, Plan& plan);
+
 }  // namespace parallux

@@ -21,7 +21,7 @@ double pairs_of(std::size_t regions, double exits) {
     return std::max(exits / 2 * static_cast<double>(regions), fewest);
 }
 
-constexpr double region_exits = 64, group_exits = 256;
+constexpr double region_exits = 64, first_exits = 32;
 
 }  // namespace
 
@@ -32,8 +32,8 @@ Keeping keeping_of(std::size_t patches, double pairs, std::uint64_t bundles) {
     auto stride = [&](std::uint64_t of, double wanted) {
         return static_cast<std::uint64_t>(std::max(1.0, pairs * static_cast<double>(of) / wanted));
     };
-    keeping.first = std::min<std::uint64_t>(bundles, 32);
-    keeping.first_stride = stride(keeping.first, pairs_of(keeping.groups, group_exits));
+    keeping.first = std::min<std::uint64_t>(bundles, 64);
+    keeping.first_stride = stride(keeping.first, pairs_of(keeping.regions, first_exits));
     keeping.stride = stride(bundles, pairs_of(keeping.regions, region_exits));
     return keeping;
 }

@@ -5,12 +5,11 @@
 
 namespace parallux {
 
-/// How many lines a pass keeps to follow its leftover by: some of the first bundles, for the ways
-/// between groups of regions. Where much is left over, of all bundles: what leads out of a narrow
-/// place is seen from few directions, and light would stay too long in the mean of what few of them
-/// show.
+/// How many lines a pass keeps to follow its leftover by: of the first bundles so many that 16
+/// leave each region; where much is left over 64, of all bundles: what leads out of a narrow place
+/// is seen from few directions, and light would stay too long in the mean of what few of them show.
 struct Keeping {
-    std::size_t regions = 1;         ///< about so many, of which 64 lines leave each,
+    std::size_t regions = 1;         ///< about so many,
     std::size_t groups = 1;          ///< in about so many groups
     std::uint64_t first = 0;         ///< of so many bundles
     std::uint64_t first_stride = 1;  ///< one of so many pairs is kept;

@@ -22,11 +22,11 @@ public:
     Leftover(const Patches& patches, const Regions& regions, std::vector<double> planned,
              unsigned threads);
 
-    /// Of what was sent so far, the share that has neither been absorbed nor escaped.
-    static double held(const TransferState& state, std::uint32_t band);
-    /// In the band where it is largest.
+    /// Of what was sent so far, the share that has neither been absorbed nor escaped, in the band
+    /// where it is largest.
     static double held(const TransferState& state);
-    /// Above that share it is followed from patch to patch.
+    /// Above that share, of all light or of what a group receives, it is followed from patch to
+    /// patch.
     static constexpr double much = 1.0 / 8;
 
     /// What is received over the whole run by a patch with R quanta of area A: factor[band] · R,
@@ -49,6 +49,7 @@ private:
     struct Sums;
     Sums sums(const TransferState& state, const Banks& banks, const std::vector<bool>& fine) const;
     Sums grouped(const Sums& regions) const;
+    std::vector<double> correction(const TransferState& state, double done) const;
 
     const Patches& patches_;
     const Regions& regions_;

@@ -196,13 +196,13 @@ void shoot_locally(const Run& run, const TransferState& state, const std::vector
         return;
     const Patches& patches = run.patches;
     const std::uint32_t bands = patches.bands;
-    // What the paths have found, in place of what lines did.
-    for (const SmallPatch& one : small) {
+    // What the paths have found, in place of what lines did. They do not count as crossings, by
+    // which groups are weighted: patches are chosen by how bright a group takes them to be, and the
+    // mean would lean to groups that err upwards.
+    for (const SmallPatch& one : small)
         for (std::uint32_t band = 0; band < bands; ++band)
             pass.irradiance[one.patch * std::size_t(bands) + band] =
                 static_cast<float>(one.irradiance[band]);
-        pass.crossings[one.patch] += paths;
-    }
     // What they send, to all others: what they send each other the paths have brought.
     const std::vector<std::uint32_t> numbers = numbers_of(small);
     Emission emission = state.emission;

@@ -16,6 +16,8 @@ struct Plan {
     unsigned threads = 1;
     FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
     std::uint64_t first_shot_rays = 0;      ///< of a group
+    bool try_rays = false;                  ///< how many is for a trial to say,
+    double ray_variance = 0;                ///< which found so much; see set_rays()
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have
     double shot_effort = 1;          ///< of exact shots past what hides: samples, by its square
     std::uint32_t groups = 1;        ///< independent runs that the result is the mean of

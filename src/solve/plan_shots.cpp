@@ -26,13 +26,20 @@ void plan_local_rays(const Patches& patches, const SolveSettings& settings, Plan
         plan.shot_rays = static_cast<double>(plan.lines) * (1 - mean_reflectance(patches));
 }
 
-// Direct light must never be what the error stops at: its rays, whose sequence is even, grow as an
-// eighth of the lines' exits, and four hundred meet a patch of mean size at least.
+constexpr double most_rays = 4.0e9;
+
+// Exits of the lines of all groups.
+double all_exits(const Patches& patches, const Plan& plan) {
+    const double area = mean_area(patches) * static_cast<double>(patches.count());
+    return static_cast<double>(plan.groups * plan.bundles) * area / (2 * plan.cell);
+}
+
+// Until it is tried how noisy direct light is: an eighth of the lines' exits, or four hundred rays
+// to a patch of mean size.
 std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
-    double area = mean_area(patches) * static_cast<double>(patches.count());
-    double exits = static_cast<double>(plan.groups * plan.bundles) * area / (2 * plan.cell);
-    double rays = std::max(0.125 * exits, 400.0 * static_cast<double>(patches.count()));
-    return static_cast<std::uint64_t>(std::min(rays, 4.0e9));
+    const double rays =
+        std::max(0.125 * all_exits(patches, plan), 400.0 * static_cast<double>(patches.count()));
+    return static_cast<std::uint64_t>(std::min(rays, most_rays));
 }
 
 // Exact form factors in scenes of few surfaces, whose shadows are found in closed form: direct
@@ -77,11 +84,25 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
     plan.shot_rays = static_cast<double>(rays);
     if (plan.first_shot == FirstShot::rays && emits(patches))
         plan.first_shot_rays = rays;
+    plan.try_rays = plan.first_shot_rays > 0 && settings.method == Method::bundles &&
+                    settings.first_shot_rays == 0;
     // Shots differ from group to group where there is anything at random in them.
     plan.shoot_each =
         plan.first_shot_rays > 0 || plan.first_shot == FirstShot::exact || settings.shots > 0;
     if (local)
         plan_local_rays(patches, settings, plan);
+}
+
+void set_rays(const Patches& patches, double ray_variance, Plan& plan) {
+    // Lines leave a patch with about the variance of independent ones, for what else they do; a ray
+    // takes as long as eight exits. The error by time is least where
+    //     d/dr (v / r + n / e) (8 r + e) = 0,  r = e √(v / 8 n).
+    constexpr double exits_a_ray = 8, fewest = 50;
+    const double count = static_cast<double>(patches.count());
+    const double rays = all_exits(patches, plan) * std::sqrt(ray_variance / (exits_a_ray * count));
+    plan.ray_variance = ray_variance;
+    plan.first_shot_rays =
+        static_cast<std::uint64_t>(std::clamp(rays, fewest * count, most_rays)) / plan.groups + 1;
 }
 
 }  // namespace parallux

@@ -12,4 +12,8 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
 /// Whether the method casts single rays or lines, or has lights that do.
 bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings);
 
+/// Sets the rays of a group's first shot so that direct light and lines take the time that lowers
+/// the error most; `ray_variance`: relative quadratic error of direct light, times rays.
+void set_rays(const Patches& patches, double ray_variance, Plan& plan);
+
 }  // namespace parallux

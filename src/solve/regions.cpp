@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -47,13 +48,28 @@ Key facing(const glm::dvec3& normal) {
     return static_cast<Key>(2 * axis) + (normal[axis] < 0 ? 1 : 0);
 }
 
+// The objects of most area have numbers of their own; all others are one, 0.
+std::vector<Key> object_numbers(const Scene& scene, std::size_t most) {
+    std::vector<double> area(scene.objects.size(), 0);
+    for (const Surface& surface : scene.surfaces)
+        area[surface.object] += surface_area(scene, surface);
+    std::vector<std::size_t> order(area.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return area[a] > area[b]; });
+    std::vector<Key> numbers(area.size(), 0);
+    for (std::size_t k = 0; k < std::min(order.size(), most); ++k)
+        numbers[order[k]] = k + 1;
+    return numbers;
+}
+
 // Sets the keys of a surface's cells, both sides.
-void key_cells(const Scene& scene, const Surface& surface, const SurfaceGrid& grid,
+void key_cells(const Scene& scene, const Surface& surface, const SurfaceGrid& grid, Key number,
                const Cubes& cubes, std::vector<Key>& keys) {
     const glm::dvec3 p = scene.positions[surface.corner[0]];
     const glm::dvec3 u = scene.positions[surface.corner[1]] - p;
     const glm::dvec3 v = scene.positions[surface.corner_v()] - p;
-    const Key way = facing(glm::cross(u, v)), object = Key(surface.object) << 4;
+    const Key way = facing(glm::cross(u, v)), object = number << 4;
     const bool triangle = surface.shape() == Shape::triangle;
     std::uint32_t cell = 0;
     for (std::uint32_t iv = 0; iv < grid.nv; ++iv) {
@@ -69,11 +85,14 @@ void key_cells(const Scene& scene, const Surface& surface, const SurfaceGrid& gr
     }
 }
 
-std::vector<Key> keys_of(const Scene& scene, const Patches& patches, double large) {
+std::vector<Key> keys_of(const Scene& scene, const Patches& patches, double large,
+                         std::size_t objects) {
     const Cubes cubes(scene_bounds(scene));
+    const std::vector<Key> numbers = object_numbers(scene, objects);
     std::vector<Key> keys(patches.count());
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
-        key_cells(scene, scene.surfaces[s], patches.grids[s], cubes, keys);
+        key_cells(scene, scene.surfaces[s], patches.grids[s], numbers[scene.surfaces[s].object],
+                  cubes, keys);
     for (std::size_t patch = 0; patch < keys.size(); ++patch)
         if (patches.area[patch] >= large)
             keys[patch] = by_itself | patch;
@@ -90,7 +109,9 @@ std::uint32_t join(const Scene& scene, const Patches& patches, std::size_t wante
     double area = 0;
     for (double one : patches.area)
         area += one;
-    const std::vector<Key> keys = keys_of(scene, patches, 0.5 * area / static_cast<double>(wanted));
+    // Objects have two sides and face six ways: so few that the coarsest cubes suffice.
+    const std::vector<Key> keys =
+        keys_of(scene, patches, 0.5 * area / static_cast<double>(wanted), wanted / 16);
     std::vector<Key> different = keys;
     std::sort(different.begin(), different.end());
     int level = 0;

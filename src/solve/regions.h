@@ -18,8 +18,8 @@ struct Regions {
     std::uint32_t groups = 0;
 };
 
-/// About `wanted` regions in `groups` groups, or fewer; more only where there are as many objects,
-/// sides and ways to face. O(n log n) in the patches.
+/// About `wanted` regions in `groups` groups, or fewer. The smallest of very many objects are
+/// joined with each other. O(n log n) in the patches.
 Regions make_regions(const Scene& scene, const Patches& patches, std::size_t wanted,
                      std::size_t groups);
 

@@ -1,4 +1,5 @@
 #include "solve/rounds.h"
+#include "solve/plan_shots.h"
 
 #include <cmath>
 
@@ -43,6 +44,8 @@ Plan Rounds::planned(const Round& round, const Plan& last) const {
         std::llround(growth * static_cast<double>(settings_.first_shot_rays)));
     Plan plan = make_plan(scene_, patches_, own);
     plan.groups = round.groups;
+    if (last.try_rays)
+        set_rays(patches_, last.ray_variance, plan);
     return plan;
 }
 

@@ -94,6 +94,8 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     Estimate estimate(patches);
     Seconds seconds;
     Watch watch;
+    if (plan.try_rays && rays)
+        try_rays(scene, patches, settings, *rays, banks, listener, plan);
     const std::unique_ptr<ExactShot> exact = prepare_exact(scene, patches, rays.get(), plan);
     seconds.first_shot += watch.lap();
     SolveSettings own = settings;

@@ -80,6 +80,43 @@ TEST_CASE("an older bake stays whole when a run fails") {
         CHECK(read_file(place / name) != "older");
 }
 
+// Nothing was planted here.
+TEST_CASE("a lightmap for each object is checked before the solve, written, and told") {
+    Workplace place;
+    REQUIRE(run(place, solve(place, {"--lightmap", place / "scene.exr"})).code == 0);
+    auto arguments = [&](const std::string& bundles) {
+        return std::vector<std::string>{
+            "solve",      place / "scene.glb", "--bundles",     bundles,   "--progress",      "off",
+            "--lightmap", place / "m.exr",     "--lightmap-uv", "objects", "--lightmap-size", "64",
+            "--save",     place / "r.plx"};
+    };
+    Outcome outcome = run(place, arguments("32"));
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    std::string picture;
+    for (const std::string& name : place.files())
+        if (name.starts_with("m_"))
+            picture = name;
+    REQUIRE(picture != "");
+    CHECK(place.files() ==
+          std::vector<std::string>{"m.glb", picture, "r.plx", "scene.exr", "scene.glb"});
+    CHECK(outcome.out.find(place / picture) != std::string::npos);
+    // From the result, which knows that these coordinates were read.
+    const std::string bytes = read_file(place / picture);
+    CHECK(run(place, {"bake", place / "r.plx", place / "scene.glb", "--lightmap", place / "m.exr",
+                      "--lightmap-uv", "objects", "--lightmap-size", "64", "--quiet"})
+              .code == 0);
+    CHECK(read_file(place / picture) == bytes);
+    CHECK(run(place, {"bake", place / "r.plx", place / "scene.glb", "--lightmap", place / "n.exr",
+                      "--quiet"})
+              .code == 0);
+    std::filesystem::remove(place / picture);
+    std::filesystem::create_directory(place / picture);
+    outcome = run(place, arguments("100000000"));
+    CHECK(outcome.code == 4);
+    CHECK(outcome.one_line(picture));
+}
+
 // Planted: the lightmap's mesh not among the outputs.
 TEST_CASE("bake options that make no sense are refused with code 2") {
     Workplace place;

@@ -14,16 +14,6 @@ using namespace parallux::test;
 
 namespace {
 
-void add_quad(Scene& scene, const glm::dvec3& origin, const glm::dvec3& u, const glm::dvec3& v) {
-    const auto first = static_cast<std::uint32_t>(scene.positions.size());
-    for (const glm::dvec3& p : {origin, origin + u, origin + u + v, origin + v})
-        scene.positions.push_back(p);
-    Surface surface;
-    surface.corner = {first, first + 1, first + 2, first + 3};
-    surface.grid_u = surface.grid_v = 1;
-    scene.surfaces.push_back(surface);
-}
-
 Scene bare(double reflectance) {
     Scene scene;
     scene.bands = 1;

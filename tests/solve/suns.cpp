@@ -13,16 +13,6 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-void add_quad(Scene& scene, const glm::dvec3& origin, const glm::dvec3& u, const glm::dvec3& v) {
-    const auto first = static_cast<std::uint32_t>(scene.positions.size());
-    for (const glm::dvec3& p : {origin, origin + u, origin + u + v, origin + v})
-        scene.positions.push_back(p);
-    Surface surface;
-    surface.corner = {first, first + 1, first + 2, first + 3};
-    surface.grid_u = surface.grid_v = 1;
-    scene.surfaces.push_back(surface);
-}
-
 // Square millimetres of floor here and there.
 Scene floor_of(const std::vector<glm::dvec3>& places) {
     Scene scene;

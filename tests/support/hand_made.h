@@ -44,6 +44,18 @@ void add_box(Scene& scene, Map&& corner, bool inward, std::uint32_t n,
     }
 }
 
+/// Adds a parallelogram of one cell, of the first material and object.
+inline void add_quad(Scene& scene, const glm::dvec3& origin, const glm::dvec3& u,
+                     const glm::dvec3& v) {
+    const auto first = static_cast<std::uint32_t>(scene.positions.size());
+    for (const glm::dvec3& p : {origin, origin + u, origin + u + v, origin + v})
+        scene.positions.push_back(p);
+    Surface surface;
+    surface.corner = {first, first + 1, first + 2, first + 3};
+    surface.grid_u = surface.grid_v = 1;
+    scene.surfaces.push_back(surface);
+}
+
 /// A closed room low … high, n × n cells a face, every face of its own material.
 inline Scene room(const std::array<Material, 6>& faces, std::uint32_t n,
                   glm::dvec3 low = glm::dvec3(0), glm::dvec3 high = glm::dvec3(1)) {
