@@ -22,9 +22,13 @@ using namespace parallux::factor_bench;
 
 namespace {
 
+// Up to so many, the reference's sky is from points.
+constexpr std::size_t few_facets = 2000;
+
 struct Options {
     std::string scene, json;
     std::vector<std::uint64_t> bundles{64, 256, 1024, 4096}, solve{64, 256, 1024, 4096};
+    std::vector<std::uint64_t> lines;
     std::vector<std::uint32_t> rays{16, 64, 256, 1024};
     std::uint64_t reference = 8192;
     std::size_t facets = 0;
@@ -110,7 +114,9 @@ int run(const Options& options) {
     const Patches patches = make_patches(scene, facets);
     const std::string name =
         options.tiny ? "court" : std::filesystem::path(options.scene).parent_path().filename();
-    const Answer reference = by_bundles(scene, patches, options.reference, 1000, 0);
+    Answer reference = by_bundles(scene, patches, options.reference, 1000, 0, SkyFrom::lines);
+    if (scene.surfaces.size() <= few_facets)
+        with_fine_sky(scene, patches, reference);
     std::vector<Row> rows;
     auto take = [&](const std::string& method, std::uint64_t effort, const Answer& answer) {
         rows.push_back(judge(name, method, effort, patches, answer, reference));
@@ -118,7 +124,9 @@ int run(const Options& options) {
     };
     print_heading();
     for (std::uint64_t bundles : options.bundles)
-        take("bundles", bundles, by_bundles(scene, patches, bundles, 1, 1));
+        take("bundles", bundles, by_bundles(scene, patches, bundles, 1, 1, SkyFrom::automatic));
+    for (std::uint64_t bundles : options.lines)
+        take("lines", bundles, by_bundles(scene, patches, bundles, 1, 1, SkyFrom::lines));
     for (std::uint32_t rays : options.rays)
         take("rays", rays, by_rays(scene, patches, rays, 1));
     for (std::uint64_t bundles : options.solve)
@@ -141,6 +149,8 @@ int main(int argc, char** argv) {
     app.add_option("--scene", options.scene, "A scene of triangles");
     app.add_option("--json", options.json, "Where to write the rows");
     app.add_option("--bundles", options.bundles, "Lengths of bundles")->delimiter(',');
+    app.add_option("--lines", options.lines, "The same with all sky factors from lines")
+        ->delimiter(',');
     app.add_option("--rays", options.rays, "Rays a facet")->delimiter(',');
     app.add_option("--solve", options.solve, "Lengths of the solver")->delimiter(',');
     app.add_option("--reference", options.reference, "Bundles of the reference");

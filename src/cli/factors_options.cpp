@@ -94,6 +94,14 @@ void add_nodes(CLI::App& app, FactorsOptions& o) {
                                                       {"tregenza", SkyParts::tregenza},
                                                       {"reinhart", SkyParts::reinhart}});
     });
+    option("--sky-from", "S",
+           "lines, or points on each patch; auto: points where they cost little [auto]",
+           [&o](auto& v) {
+               o.factors.sky_from = parse_choice<SkyFrom>("--sky-from", v,
+                                                          {{"auto", SkyFrom::automatic},
+                                                           {"lines", SkyFrom::lines},
+                                                           {"points", SkyFrom::points}});
+           });
     option("--threshold", "T",
            "Leave out factors below T both ways; what they had goes to the others of the row [0]",
            [&o](auto& v) { o.factors.threshold = parse_real("--threshold", v, 0, 1); });

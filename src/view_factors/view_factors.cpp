@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "lines/periodic.h"
@@ -13,6 +14,7 @@
 #include "view_factors/nodes.h"
 #include "view_factors/pair_sweep.h"
 #include "view_factors/plan.h"
+#include "view_factors/sky_shares.h"
 
 namespace parallux {
 
@@ -59,6 +61,7 @@ Factors view_factors(const Scene& scene, const Patches& patches, const FactorSet
     factors.groups = choose_groups(settings);
     factors.line_spacing = choose_spacing(scene, patches, settings, factors.groups);
     check_copies(scene, line_sphere(scene).radius, factors.line_spacing);
+    const bool by_points = sky_from_points(scene, patches, settings, factors.line_spacing);
     const FactorMemory memory(scene, patches, map.nodes.size(), factors, settings);
     memory.check_base();
 
@@ -71,6 +74,13 @@ Factors view_factors(const Scene& scene, const Patches& patches, const FactorSet
     }
     factors.count_seconds = seconds_since(start);
 
+    // Where there are few polygons, the sky is known better from points.
+    const auto sky = Clock::now();
+    std::optional<SkyShares> known;
+    if (by_points && !factors.partial)
+        known = sky_shares(scene, patches, map, settings.sky_tolerance, factors.threads);
+    factors.sky_seconds = seconds_since(sky);
+
     // Make areas of them, exactly reciprocal and closed.
     const auto counted = Clock::now();
     factors.nodes = std::move(map.nodes);
@@ -78,7 +88,7 @@ Factors view_factors(const Scene& scene, const Patches& patches, const FactorSet
         factors.exits.push_back((exits + PairCounts::line - 1) / PairCounts::line);
     SparseRows rows = take_rows(counts);
     set_errors(counts, rows, factors);
-    set_exchange(counts, std::move(rows), settings, factors);
+    set_exchange(counts, std::move(rows), known, settings, factors);
     add_warnings(scene, factors);
     factors.scale_seconds = seconds_since(counted);
     return factors;
