@@ -77,6 +77,7 @@ std::vector<Factors> runs(const Scene& scene, const FactorSettings& settings, st
             FactorSettings own = settings;
             own.seed = 1 + run;
             own.threads = 1;
+            own.sky_from = SkyFrom::lines;
             all[run] = view_factors(scene, patches, own);
         }
     });
