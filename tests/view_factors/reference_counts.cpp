@@ -10,7 +10,10 @@
 
 // The counting in sorted rows against a plain one of the same lines: a map of whole numbers, each
 // run of equal pairs put in as it comes. Planted, each seen to fail:
-// PLANTED_LIST
+// a mark of a column lost (count_rows.h), equal columns of two groups kept apart
+// (count_rows.cpp), a bundle's entries weighed anew with the next one's, pairs weighed by one node
+// alone (pair_counts.cpp), lines that come in counted to the part of the sky that they go to
+// (pair_sweep.cpp).
 
 using namespace parallux;
 using namespace parallux::test;
