@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <functional>
 #include <optional>
 
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
         watch_signals();
         return run(parse_options(argc, argv));
     } catch (...) {
-        return report_failure();
+        // A library that was left half-way by an exception need not stand its own end.
+        std::_Exit(report_failure());
     }
 }

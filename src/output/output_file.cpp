@@ -65,6 +65,10 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
         errno = EISDIR;
         fail(target_, "write");
     }
+    // A device or a pipe would be replaced by a file.
+    if (std::filesystem::exists(target_, ignored) &&
+        !std::filesystem::is_regular_file(target_, ignored))
+        throw Error(Fault::output, target_.string() + ": cannot write: it is no regular file");
     // The ending stays last, because image libraries choose the format by it.
     std::string name = "." + target_.stem().string() + ".XXXXXX" + target_.extension().string();
     name_ = Name::take((folder_of(target_) / name).string());

@@ -62,7 +62,7 @@ std::vector<Kind> kinds() {
     SolveSettings usual;
     usual.bundles = 160;
     usual.groups = 3;
-    std::vector<Kind> all(8, {"", lit_room(), usual});
+    std::vector<Kind> all(9, {"", lit_room(), usual});
     all[0].name = "exact first shots, sky and lights";
     all[1].name = "rays, as many as a trial tells";
     for (std::size_t s = 0; s < 300; ++s)  // too many surfaces for exact ones
@@ -90,6 +90,13 @@ std::vector<Kind> kinds() {
     all[6].settings.first_shot_rays = 20000;
     all[7].name = "lights alone, whose direct light all groups share";
     all[7].settings.first_shot = FirstShot::off;
+    all[8].name = "large batches, so that all workers keep lines, and no gather";
+    for (Surface& surface : all[8].scene.surfaces)
+        surface.grid_u = surface.grid_v = 16;
+    all[8].settings.first_shot = FirstShot::off;
+    all[8].settings.batch = 32;
+    all[8].settings.groups = 1;
+    all[8].settings.gather_share = 0;
     return all;
 }
 
