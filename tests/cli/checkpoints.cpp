@@ -9,6 +9,7 @@
 
 #include "cli/run.h"
 #include "random.h"
+#include "support/soak.h"
 
 // Runs that signals end, and what they leave. Each case names the planted errors that were seen to
 // fail it.
@@ -21,10 +22,10 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A solve of about a second that states its error.
+// A solve of about half a second that states its error.
 std::vector<std::string> solve_of(const Workplace& place, std::vector<std::string> more) {
     std::vector<std::string> arguments = {
-        "solve",   place.scene(),  "--patches", "400",     "--bundles",     "20000",
+        "solve",   place.scene(),  "--patches", "400",     "--bundles",     "12000",
         "--quiet", "--first-shot", "rays",      "--stats", place / "s.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
@@ -37,7 +38,7 @@ nlohmann::json stats_of(const Workplace& place) {
 }  // namespace
 
 // 100 random moments. Planted, each seen to fail: the checkpoint of a stopped run not written; the
-// first signal answered by the end of the group; a second one that waits for the files.
+// signals not asked for between batches. A second signal while the disk is slow: faults/odd.sh.
 TEST_CASE("SIGTERM and SIGINT are answered in 5 s with a resumable state, a second in 1 s") {
     Workplace place;
     const auto start = Clock::now();
@@ -53,7 +54,8 @@ TEST_CASE("SIGTERM and SIGINT are answered in 5 s with a resumable state, a seco
             std::filesystem::remove(place / name);
         Running solve(place, solve_of(place, {"--threads", k % 2 ? "1" : "2", "--checkpoint",
                                               place / "c.plx"}));
-        const double moment = whole * double(parallux::mix64(k) >> 11) * 0x1p-53;
+        const double moment =
+            whole * double(parallux::mix64(k + 100 * parallux::test::soak_round()) >> 11) * 0x1p-53;
         std::this_thread::sleep_for(std::chrono::duration<double>(moment));
         const auto sent = Clock::now();
         solve.send(k % 3 ? SIGTERM : SIGINT);
@@ -69,8 +71,10 @@ TEST_CASE("SIGTERM and SIGINT are answered in 5 s with a resumable state, a seco
         for (const std::string& name : place.files())
             CHECK((name == "c.plx" || name == "s.json"));
         if (!std::filesystem::exists(place / "c.plx")) {
-            // It was not yet begun, was over, or was told twice.
-            CHECK((twice || outcome.code == 0 || outcome.err.empty()));
+            // It was not yet begun, was over but for its files, or was told twice.
+            const bool over =
+                std::filesystem::exists(place / "s.json") && !stats_of(place)["partial"];
+            CHECK((twice || over || outcome.err.empty()));
             ++early;
             continue;
         }
@@ -110,7 +114,7 @@ TEST_CASE("SIGUSR1 asks for a checkpoint, and the run goes on to the same bits")
     CHECK(stats_of(place)["solution_hash"] == hash);
 }
 
-// Planted, seen to fail: a time limit that keeps nothing.
+// Planted, seen to fail: a stopped run that keeps nothing.
 TEST_CASE("a time limit leaves a checkpoint, and one file may be resumed from and kept in") {
     Workplace place;
     CHECK(run(place, solve_of(place, {})).code == 0);
