@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "output/fields.h"
 #include "output/sealed_file.h"
 #include "parallux/error.h"
 #include "parallux/result.h"
@@ -155,8 +156,8 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-// Planted, each seen to fail: the dither, the batch, the kept ways of other workers or their totals
-// not taken up; the state kept after the stop was acted upon; emission not darkened.
+// Planted, each seen to fail: the dither, the batch or other workers' totals not taken up; the
+// state kept after the stop was acted upon; emission not darkened.
 TEST_CASE("interrupted anywhere and resumed on other threads: the same bits") {
     unsigned threads = 0;
     for (Kind& kind : kinds()) {
@@ -414,6 +415,54 @@ TEST_CASE("stopped at once, a run has a value for every patch") {
         for (std::int64_t residual : solution.energy.residual)
             CHECK(residual == 0);
     }
+}
+
+namespace {
+
+// How many values each row of the fields has, and their sum.
+struct Rows {
+    std::vector<std::size_t> sizes;
+    std::int64_t sum = 0;
+
+    template <class T>
+    void operator()(const T& value) {
+        sum += static_cast<std::int64_t>(value);
+    }
+    template <class T, class A>
+    void operator()(const std::vector<T, A>& values) {
+        sizes.push_back(values.size());
+        for (const T& value : values)
+            sum += static_cast<std::int64_t>(value);
+    }
+};
+
+}  // namespace
+
+// Planted, each seen to fail: the lines that lead out not moved; what came in from the sky not
+// moved.
+TEST_CASE("what the workers hold is collected, all of it") {
+    const Regions regions{3, {0, 1, 2}, {1, 1, 1}, {0, 1, 1}, 2};
+    Ways ways(regions, 3);
+    ways.keep_one_of(1);
+    Banks banks(1, 1, 3, 1 << 20);
+    for (std::uint32_t worker = 0; worker < 3; ++worker) {
+        TilePairs pairs;
+        pairs.from = {{worker}, 1};
+        pairs.to = {{(worker + 1) % 3}, 1};
+        pairs.first = pairs.from;
+        ways.keep(pairs, 0, worker);
+        banks.receive(worker, 0, 100);
+        banks.totals(worker).sky[0] = 10;
+        banks.totals(worker).escaped[0] = 10;
+        banks.totals(worker).counts.hits = 1;
+    }
+    ways.collect();
+    Rows kept, held;
+    ways.fields(kept);
+    CHECK(kept.sizes == std::vector<std::size_t>{3, 3});
+    banks.collect(1);
+    banks.fields(held);
+    CHECK(held.sum == 363);
 }
 
 TEST_CASE("methods without checkpoints refuse them") {
