@@ -34,21 +34,21 @@ Emitters own_emitters(const Scene& scene, const Patches& patches, double watts_p
 }
 
 // All sources at once.
-void shoot_sources(const Run& run, DirectLight& direct) {
+void shoot_sources(const Run& run, DirectLight& direct, std::uint64_t& done) {
+    auto go_on = [&](double share) { return run.listener.go_on("first shot", share, 0); };
     if (run.exact) {
-        run.exact->shoot(run, direct.emitted, direct.escaped);
         direct.arrived = true;
-        return;
+        direct.done = run.exact->shoot(run, direct.emitted, direct.escaped, done, go_on);
+    } else {
+        const Emitters emitters = own_emitters(run.scene, run.patches, run.plan.watts_per_quantum);
+        if (emitters.pieces.empty())
+            return;
+        direct.arrived = true;
+        direct.rays = run.plan.first_shot_rays;
+        direct.done =
+            shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed, done, go_on);
+        run.banks.take_totals(direct.emitted, direct.escaped);
     }
-    Emitters emitters = own_emitters(run.scene, run.patches, run.plan.watts_per_quantum);
-    if (emitters.pieces.empty())
-        return;
-    direct.arrived = true;
-    direct.done =
-        shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed,
-                   [&](double done) { return run.listener.go_on("first shot", done, 0); });
-    direct.rays = run.plan.first_shot_rays;
-    run.banks.take_totals(direct.emitted, direct.escaped);
     if (direct.done < 1)
         stand_for_all(run, direct);
 }
@@ -56,7 +56,8 @@ void shoot_sources(const Run& run, DirectLight& direct) {
 }  // namespace
 
 std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patches,
-                                         const RayScene* rays, const Plan& plan) {
+                                         const RayScene* rays, const Plan& plan,
+                                         Listener& listener) {
     if (plan.first_shot != FirstShot::exact || !rays)
         return nullptr;
     const Emitters emitters = own_emitters(scene, patches, plan.watts_per_quantum);
@@ -64,7 +65,7 @@ std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patc
         return nullptr;
     return std::make_unique<ExactShot>(
         scene, patches, *rays, std::make_shared<std::vector<Emitter>>(all_cells(scene, patches)),
-        emitters, plan.threads);
+        emitters, plan.threads, [&] { return listener.go_on("first shot", 0, 0); });
 }
 
 namespace {
@@ -93,45 +94,45 @@ double ray_variance(const Patches& patches, const Banks& banks, double quanta, d
 
 }  // namespace
 
-void try_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings,
-              const RayScene& rays, Banks& banks, Listener& listener, Plan& plan) {
-    const Emitters emitters = own_emitters(scene, patches, plan.watts_per_quantum);
+void try_rays(const Run& run, std::uint64_t& done, Plan& plan) {
+    const Patches& patches = run.patches;
+    const Emitters emitters = own_emitters(run.scene, patches, plan.watts_per_quantum);
     if (emitters.pieces.empty())
         return;
     const std::uint64_t tried = std::max<std::uint64_t>(1 << 14, 8 * patches.count());
-    const Run run{scene, patches, settings, plan, &rays, banks, listener};
-    shoot_rays(run, emitters, tried, mix64(settings.seed ^ stream::trial_rays),
-               [&](double) { return listener.go_on("first shot", 0, 0); });
-    set_rays(patches, ray_variance(patches, banks, emitters.total, static_cast<double>(tried)),
+    shoot_rays(run, emitters, tried, mix64(run.settings.seed ^ stream::trial_rays), done,
+               [&](double) { return run.listener.go_on("first shot", 0, 0); });
+    set_rays(patches, ray_variance(patches, run.banks, emitters.total, static_cast<double>(tried)),
              plan);
-    for (WorkerTotals& totals : banks.all_totals())
+    for (WorkerTotals& totals : run.banks.all_totals())
         totals = {};
-    banks.clear(plan.threads);
+    run.banks.clear(plan.threads);
 }
 
-DirectLight first_shot(const Run& run) {
-    DirectLight direct;
-    for (auto* totals : {&direct.emitted, &direct.absorbed, &direct.escaped, &direct.unshot})
-        totals->assign(run.patches.bands, 0);
-
-    // Shoot from the sources, or leave their power to the pass.
-    direct.own = run.plan.first_shot == FirstShot::off;
-    if (direct.own) {
-        for (std::size_t k = 0; k < run.patches.emission.size(); ++k)
+void first_shot(const Run& run, Group& group) {
+    DirectLight& direct = group.direct;
+    const bool own = run.plan.first_shot == FirstShot::off;
+    if (group.stage <= Stage::sources) {
+        // Shoot from the sources, or leave their power to the pass.
+        direct.own = own;
+        for (auto* totals : {&direct.emitted, &direct.absorbed, &direct.escaped, &direct.unshot})
+            totals->resize(run.patches.bands, 0);
+        for (std::size_t k = 0; own && k < run.patches.emission.size(); ++k)
             direct.emitted[k % run.patches.bands] +=
                 emitted_quanta(run.patches, run.plan.watts_per_quantum, k);
-    } else {
-        shoot_sources(run, direct);
+        if (!own)
+            shoot_sources(run, direct, group.done);
+        group.enter(Stage::lights);
     }
-
-    // Add the lights without area, which have no power of their own to lose: what arrives is what
-    // they emitted.
-    add_light_points(run, direct);
-
+    if (group.stage == Stage::lights) {
+        // Add the lights without area, which have no power of their own to lose: what arrives is
+        // what they emitted.
+        add_light_points(run, direct, group.done);
+        group.enter(Stage::shots);
+    }
     // Shoot again from the patches that have most to send.
     if (run.settings.shots > 0 && run.settings.method != Method::progressive)
         shoot_brightest(run, direct, {run.settings.shots, 0, run.plan.shot_rays});
-    return direct;
 }
 
 }  // namespace parallux

@@ -10,6 +10,7 @@
 #include "parallel.h"
 #include "random.h"
 #include "solve/emitters.h"
+#include "solve/group.h"
 #include "solve/plan_lines.h"
 #include "solve/shot_rays.h"
 
@@ -38,12 +39,10 @@ class LocalPaths {
 public:
     LocalPaths(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
                const PassResult& pass)
-        : run_(run), emission_(state.emission), pass_(pass), cells_(run.scene, run.patches, [&] {
-              std::vector<std::uint32_t> wanted;
-              for (const SmallPatch& one : small)
-                  wanted.push_back(one.patch);
-              return wanted;
-          }()) {
+        : run_(run),
+          emission_(state.emission),
+          pass_(pass),
+          cells_(run.scene, run.patches, numbers_of(small)) {
         emission_.quanta = 1;
     }
 
@@ -166,32 +165,46 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
     }
     std::vector<SmallPatch> chosen;
     for (const Found& one : found)
-        chosen.push_back({one.patch, {}});
+        chosen.push_back({one.patch});
     std::sort(chosen.begin(), chosen.end(),
               [](const SmallPatch& a, const SmallPatch& b) { return a.patch < b.patch; });
     return chosen;
 }
 
-void gather_locally(const Run& run, const TransferState& state, const PassResult& pass,
-                    std::vector<SmallPatch>& small) {
+void gather_locally(const Run& run, Group& group) {
+    std::vector<SmallPatch>& small = group.small;
     if (small.empty())
         return;
-    const LocalPaths local(run, state, small, pass);
-    parallel_for(run.plan.threads, small.size(), 4,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     DenormalsOff guard;
-                     for (std::size_t k = begin; k < end; ++k) {
-                         Random random(run.settings.seed, stream::local_gather + small[k].patch);
-                         for (std::uint32_t path = 0; path < paths; ++path)
-                             local.add_path(k, random, small[k].irradiance);
-                         for (double& irradiance : small[k].irradiance)
-                             irradiance /= paths;
-                     }
-                 });
+    const LocalPaths local(run, group.state, small, group.pass);
+    auto gather = [&](SmallPatch& one, std::size_t k) {
+        Random random(run.settings.seed, stream::local_gather + one.patch);
+        for (std::uint32_t path = 0; path < paths; ++path)
+            local.add_path(k, random, one.irradiance);
+        for (double& irradiance : one.irradiance)
+            irradiance /= paths;
+    };
+    // In slabs, so that the caller is heard now and then.
+    constexpr std::uint64_t slab = 1 << 12;
+    bool going_on = true;
+    while (going_on && group.done < small.size()) {
+        const std::uint64_t count = std::min(slab, small.size() - group.done);
+        parallel_for(run.plan.threads, count, 4, [&](std::size_t begin, std::size_t end, unsigned) {
+            DenormalsOff guard;
+            for (std::size_t k = group.done + begin; k < group.done + end; ++k)
+                gather(small[k], k);
+        });
+        group.done += count;
+        going_on = run.listener.go_on(
+            "bundles",
+            static_cast<double>(run.plan.passing()) / static_cast<double>(run.plan.bundles),
+            group.pass.counts.lines);
+    }
+    small.resize(group.done);
 }
 
-void shoot_locally(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
-                   PassResult& pass) {
+void shoot_locally(const Run& run, Group& group) {
+    const std::vector<SmallPatch>& small = group.small;
+    PassResult& pass = group.pass;
     if (small.empty() || !pass.whole)
         return;
     const Patches& patches = run.patches;
@@ -205,7 +218,7 @@ void shoot_locally(const Run& run, const TransferState& state, const std::vector
                 static_cast<float>(one.irradiance[band]);
     // What they send, to all others: what they send each other the paths have brought.
     const std::vector<std::uint32_t> numbers = numbers_of(small);
-    Emission emission = state.emission;
+    Emission emission = group.state.emission;
     emission.quanta = 1;
     const Emitters emitters = emitters_of(run.scene, patches, [&](std::size_t k) -> std::int64_t {
         const auto patch = static_cast<std::uint32_t>(k / bands);
@@ -216,9 +229,16 @@ void shoot_locally(const Run& run, const TransferState& state, const std::vector
     });
     if (emitters.pieces.empty())
         return;
-    run.banks.clear(run.plan.threads);
-    shoot_rays(run, emitters, std::uint64_t(paths) * small.size(),
-               mix64(run.settings.seed ^ stream::local_gather), [](double) { return true; });
+    if (group.done == 0)
+        run.banks.clear(run.plan.threads);
+    const double done =
+        shoot_rays(run, emitters, std::uint64_t(paths) * small.size(),
+                   mix64(run.settings.seed ^ stream::local_gather), group.done,
+                   [&](double) { return run.listener.go_on("bundles", 1, pass.counts.lines); });
+    if (done < 1) {
+        run.banks.scale(1 / done);
+        pass.whole = false;
+    }
     for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
         if (std::binary_search(numbers.begin(), numbers.end(), patch))
             continue;

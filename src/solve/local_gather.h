@@ -12,9 +12,10 @@
 
 namespace parallux {
 
+struct Group;
+
 struct SmallPatch {
-    std::uint32_t patch;
-    bool bright;                                 ///< so that what it sends needs rays of its own
+    std::uint32_t patch = 0;
     std::array<double, max_bands> irradiance{};  ///< found by paths, W/m²
 };
 
@@ -30,14 +31,13 @@ std::vector<std::uint32_t> numbers_of(const std::vector<SmallPatch>& small);
 
 /// Finds what arrives at small patches, beside the first shots, along 64 local paths each: by the
 /// cosine law from a uniform point of the patch to what the other end sends by the pass. A path
-/// that ends at a small patch goes on from there, reflected, until it ends elsewhere.
-void gather_locally(const Run& run, const TransferState& state, const PassResult& pass,
-                    std::vector<SmallPatch>& small);
+/// that ends at a small patch goes on from there, reflected, until it ends elsewhere. Goes on
+/// behind the small patches that are done; where it is stopped, the others are small no more.
+void gather_locally(const Run& run, Group& group);
 
 /// After closing_gather(), for which they were dark: adds what they send, along local
 /// rays, 64 for each in the mean, and puts what gather_locally() found in its place. Takes the
-/// banks.
-void shoot_locally(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
-                   PassResult& pass);
+/// banks. Goes on behind the rays that are done.
+void shoot_locally(const Run& run, Group& group);
 
 }  // namespace parallux

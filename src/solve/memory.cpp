@@ -9,6 +9,7 @@
 #include "parallel.h"
 #include "parallux/error.h"
 #include "reference/matrix.h"
+#include "solve/checkpoint.h"
 #include "solve/emitters.h"
 #include "solve/keeping.h"
 #include "solve/plan_shots.h"
@@ -52,6 +53,10 @@ struct Footprint {
         const bool several = settings.method == Method::bundles && settings.groups != 1;
         return several ? count * (bands * 8 + 8) : 0;
     }
+    // A checkpoint lies in memory while it is written, or read.
+    std::uint64_t checkpoint() const {
+        return settings.checkpoints.any() ? checkpoint_bytes(count, bands) : 0;
+    }
     // The cells that send, with their power.
     std::uint64_t first_shot() const {
         std::uint64_t cells = 0;
@@ -86,7 +91,7 @@ struct Footprint {
 std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
                                const SolveSettings& settings) {
     const Footprint footprint{scene, patches, settings};
-    return footprint.loaded() +
+    return footprint.loaded() + footprint.checkpoint() +
            std::max({footprint.first_shot(), footprint.pass(), footprint.gather()});
 }
 

@@ -63,7 +63,7 @@ RayQuanta ray_quanta(const Emitters& emitters, std::uint64_t rays) {
 }  // namespace
 
 double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, std::uint64_t key,
-                  const std::function<bool(double)>& go_on) {
+                  std::uint64_t& done, const std::function<bool(double)>& go_on) {
     const Sobol sobol(key);
     const RayQuanta quanta = ray_quanta(emitters, rays);
     const std::uint32_t bands = emitters.bands;
@@ -103,7 +103,6 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
 
     // In slabs, so that the caller is heard now and then.
     constexpr std::uint64_t slab = 1 << 18;
-    std::uint64_t done = 0;
     while (done < rays) {
         std::uint64_t count = std::min(slab, rays - done);
         parallel_for(run.plan.threads, count, 2048,

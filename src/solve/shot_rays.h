@@ -16,8 +16,9 @@ std::uint32_t patch_of(const Scene& scene, const Patches& patches, const Surface
 /// direction by the cosine law, so that every ray carries the same power (summed over bands). The
 /// powers of a single patch are carried to the last quantum; of several, as the rays fall to them.
 /// Rays are counted where they go: received, or escaped; what came in is in the totals' `sky`.
-/// `go_on(share done)` is asked after each slab of rays; false stops. Returns the share done.
+/// Begins behind the first `done` rays, which counts on. `go_on(share done)` is asked after each
+/// slab of rays; false stops. Returns the share done.
 double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, std::uint64_t key,
-                  const std::function<bool(double)>& go_on);
+                  std::uint64_t& done, const std::function<bool(double)>& go_on);
 
 }  // namespace parallux
