@@ -24,8 +24,8 @@ enum class SkyParts { whole, tregenza, reinhart };
 
 /// Where sky factors come from: the counted lines, or points on each patch, at which they are in
 /// closed form past the scene's polygons; with `automatic`, points where they cost no more than
-/// twice what counting does (scenes of few polygons), the scene does not repeat, and the sky is
-/// one.
+/// two or three times what counting does (scenes of few polygons), the scene does not repeat, and
+/// the sky is one.
 enum class SkyFrom { automatic, lines, points };
 
 struct FactorSettings {

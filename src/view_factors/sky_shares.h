@@ -15,9 +15,9 @@ struct SkyShares {
         error;  ///< what the last, finer rule of points changed: a bound in practice
 };
 
-/// Whether settings ask for sky factors from points, or whether they cost no more than twice what
-/// counting does. They are of one tile and the sky in one part alone: Fault::usage when asked for
-/// otherwise.
+/// Whether settings ask for sky factors from points, or whether they cost no more than two or
+/// three times what counting does. They are of one tile and the sky in one part alone: Fault::usage
+/// when asked for otherwise.
 bool sky_from_points(const Scene& scene, const Patches& patches, const FactorSettings& settings,
                      double line_spacing);
 
