@@ -38,18 +38,21 @@ void write(const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
 }
 
+// Gives made-up bytes the checksum that they should have.
+void seal(std::string& bytes) {
+    Checksum sum;
+    sum.add(std::string_view(bytes).substr(0, bytes.size() - sealed_tail));
+    const std::uint64_t value = sum.value();
+    std::memcpy(bytes.data() + bytes.size() - sealed_tail, &value, sealed_tail);
+}
+
 Scene lit_room() {
     const Material wall = grey(0.6), lamp = grey(0.4, 2, true);
     Scene scene = room({wall, wall, wall, wall, wall, lamp}, 4);
     scene.bands = 3;
     add_turned_cube(scene, {0.4, 0.5, 0.45}, 0.3, 2, grey(0.8));
     add_turned_cube(scene, {0.2, 0.7, 0.2}, 0.1, 1, grey(0.5, 1));
-    Light light;
-    light.position = {0.1, 0.2, 0.9};
-    light.intensity = Spectrum::constant(0.5);
-    scene.lights = {light};
-    scene.sky.kind = Sky::Kind::uniform;
-    scene.sky.zenith = Spectrum::constant(0.1f);
+    add_light_and_sky(scene);
     return scene;
 }
 
@@ -300,12 +303,6 @@ TEST_CASE("a checkpoint of another scene, settings or version is refused with bo
     const std::string version = "9.9.9";
     std::string later = bytes;
     later.replace(sealed_head + 8, version.size(), version);
-    const auto seal = [](std::string& sealed) {
-        Checksum sum;
-        sum.add(std::string_view(sealed).substr(0, sealed.size() - sealed_tail));
-        const std::uint64_t value = sum.value();
-        std::memcpy(sealed.data() + sealed.size() - sealed_tail, &value, sealed_tail);
-    };
     seal(later);
     write(later);
     CHECK(contains(refusal(kind.scene, patches, resumed), version));
@@ -370,10 +367,7 @@ TEST_CASE("a made-up checkpoint with a right checksum is refused or run, nothing
                 const std::uint64_t word = random.bits() >> random.bits() % 64;
                 std::memcpy(bytes.data() + at, &word, sizeof word);
             }
-            Checksum sum;
-            sum.add(std::string_view(bytes).substr(0, bytes.size() - sealed_tail));
-            const std::uint64_t value = sum.value();
-            std::memcpy(bytes.data() + bytes.size() - sealed_tail, &value, sealed_tail);
+            seal(bytes);
             write(bytes);
             (refusal(kind.scene, patches, resumed) == "" ? ran : not_run) += 1;
         }
