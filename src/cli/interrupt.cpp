@@ -3,9 +3,12 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 
 #include <unistd.h>
 
+#include "cli/terminal.h"
 #include "output/output_file.h"
 
 namespace parallux {
@@ -36,6 +39,15 @@ void watch_signals() {
     action.sa_flags = SA_RESTART;
     for (int number : {SIGINT, SIGTERM, SIGUSR1})
         sigaction(number, &action, nullptr);
+}
+
+void end_cleanly() {
+    std::set_terminate([] {
+        remove_temporaries();
+        if (!std::current_exception())
+            std::abort();
+        std::_Exit(report_failure());
+    });
 }
 
 void keep_results() {

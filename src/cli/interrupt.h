@@ -11,6 +11,11 @@ inline constexpr int exit_interrupted = 130;
 /// Call once.
 void watch_signals();
 
+/// From now on an exception that a library lets out of a function which promises none (as the
+/// parser of arguments does when memory ends) also ends the program with its line and its exit
+/// code.
+void end_cleanly();
+
 /// From now on the first signal is answered with a partial result.
 void keep_results();
 

@@ -113,6 +113,7 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     try {
         guard_standard_streams();
+        end_cleanly();
         watch_signals();
         return run(parse_options(argc, argv));
     } catch (...) {
