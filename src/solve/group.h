@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solve/direct_light.h"
-#include "solve/local_gather.h"
+#include "solve/small_patches.h"
 #include "solve/pass.h"
 
 namespace parallux {
