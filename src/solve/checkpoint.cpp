@@ -67,10 +67,9 @@ void Checkpoint::resume() {
     const char* impossible = "a state that no run comes to";
     if (!run_.rounds.sound())
         reader.fail(impossible);
-    // The rounds before set the plan of this one, but for rays, of which a trial tells.
-    const std::uint64_t rays = run_.plan.first_shot_rays;
+    // What the trial told and the rounds before set the plan of this one.
+    run_.plan = make_plan(scene_, patches_, settings_, Trial(run_.plan.trial));
     run_.rounds.replay(run_.plan);
-    run_.plan.first_shot_rays = rays;
     if (!sound(run_, patches_))
         reader.fail(impossible);
     Group& group = run_.group;

@@ -55,7 +55,7 @@ void fields_of(Archive& a, std::vector<SmallPatch>& small) {
 
 template <class Archive>
 void fields_of(Archive& a, const RunState& run, const Patches& patches, const Regions& regions) {
-    a(run.plan.ray_variance), a(run.plan.first_shot_rays);
+    a(run.plan.trial.known), a(run.plan.trial.variance), a(run.plan.trial.lit_area);
     run.rounds.fields(a);
     run.estimate.fields(a);
     fields_of(a, run.seconds);

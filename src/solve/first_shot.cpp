@@ -7,7 +7,7 @@
 #include "solve/brightest.h"
 #include "solve/emitters.h"
 #include "solve/light_points.h"
-#include "solve/plan_shots.h"
+#include "solve/plan_lines.h"
 #include "solve/shot_exact.h"
 #include "solve/shot_rays.h"
 
@@ -70,12 +70,15 @@ std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patc
 
 namespace {
 
-// Relative quadratic error of what has been received along `rays` rays of equal power, times rays:
-// m rays leave 1/m of a patch's square, and of an even sequence some fifth of that (0.03 to 0.27 in
-// three meshes). What they add to the squares themselves is taken off.
-double ray_variance(const Patches& patches, const Banks& banks, double quanta, double rays) {
+// What has been received along `rays` rays of equal power tells. m rays leave 1/m of a patch's
+// square as its quadratic error, and of an even sequence some fifth of that (0.03 to 0.27 in three
+// meshes). What they add to the squares themselves is taken off. Lines leave a patch of area A with
+// an error that falls as their number, that is, as A: in all as Σ B² / Σ A B², but for patches that
+// local rays are to serve.
+Trial trial_of(const Patches& patches, const Banks& banks, double quanta, double rays) {
     constexpr double even = 0.2;
-    double error = 0, power = 0;
+    const double below = too_small(patches);
+    double error = 0, power = 0, lit = 0, squares = 0;
     for (std::size_t patch = 0; patch < patches.count(); ++patch) {
         double all = 0, square = 0;
         for (std::uint32_t band = 0; band < patches.bands; ++band) {
@@ -85,28 +88,37 @@ double ray_variance(const Patches& patches, const Banks& banks, double quanta, d
         }
         if (all <= 0)
             continue;
-        const double one = square / patches.area[patch] * (quanta / (rays * all));
+        const double area = patches.area[patch];
+        const double one = square / area * (quanta / (rays * all));
         error += one;
-        power += square / patches.area[patch] - one;
+        power += square / area - one;
+        if (area < below)
+            continue;
+        lit += square / area - one;
+        squares += (square / area - one) / area;
     }
-    return power > 0 ? even * error / power * rays : 0;
+    Trial trial;
+    trial.known = true;
+    trial.variance = power > 0 ? even * error / power * rays : 0;
+    trial.lit_area = squares > 0 ? lit / squares : 0;
+    return trial;
 }
 
 }  // namespace
 
-void try_rays(const Run& run, std::uint64_t& done, Plan& plan) {
+Trial try_rays(const Run& run, std::uint64_t& done) {
     const Patches& patches = run.patches;
-    const Emitters emitters = own_emitters(run.scene, patches, plan.watts_per_quantum);
+    const Emitters emitters = own_emitters(run.scene, patches, run.plan.watts_per_quantum);
     if (emitters.pieces.empty())
-        return;
+        return {};
     const std::uint64_t tried = std::max<std::uint64_t>(1 << 14, 8 * patches.count());
     shoot_rays(run, emitters, tried, mix64(run.settings.seed ^ stream::trial_rays), done,
                [&](double) { return run.listener.go_on("first shot", 0, 0); });
-    set_rays(patches, ray_variance(patches, run.banks, emitters.total, static_cast<double>(tried)),
-             plan);
+    const Trial trial = trial_of(patches, run.banks, emitters.total, static_cast<double>(tried));
     for (WorkerTotals& totals : run.banks.all_totals())
         totals = {};
-    run.banks.clear(plan.threads);
+    run.banks.clear(run.plan.threads);
+    return trial;
 }
 
 void first_shot(const Run& run, Group& group) {

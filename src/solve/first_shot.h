@@ -19,8 +19,9 @@ std::unique_ptr<ExactShot> prepare_exact(const Scene& scene, const Patches& patc
 /// unshot for the pass, which begins with settle(). Goes on with the group's stage.
 void first_shot(const Run& run, Group& group);
 
-/// Sends a few rays to see how much noise they leave in direct light, and sets the plan's number;
-/// behind the first `done` of them. Uses the banks and leaves them empty. O(patches).
-void try_rays(const Run& run, std::uint64_t& done, Plan& plan);
+/// Sends a few rays, behind the first `done` of them, to see how much noise they leave in direct
+/// light and how large the patches are that it falls on. Uses the banks and leaves them empty.
+/// O(patches).
+Trial try_rays(const Run& run, std::uint64_t& done);
 
 }  // namespace parallux

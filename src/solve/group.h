@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "solve/direct_light.h"
-#include "solve/small_patches.h"
 #include "solve/pass.h"
+#include "solve/small_patches.h"
 
 namespace parallux {
 

@@ -1,5 +1,4 @@
 #include "solve/rounds.h"
-#include "solve/plan_shots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,10 +42,8 @@ Plan Rounds::planned(const Round& round, const Plan& last) const {
         static_cast<double>(own.bundles) / static_cast<double>(first_.groups * first_.bundles);
     own.first_shot_rays = static_cast<std::uint64_t>(
         std::llround(growth * static_cast<double>(settings_.first_shot_rays)));
-    Plan plan = make_plan(scene_, patches_, own);
+    Plan plan = make_plan(scene_, patches_, own, last.trial);
     plan.groups = round.groups;
-    if (last.try_rays)
-        set_rays(patches_, last.ray_variance, plan);
     return plan;
 }
 

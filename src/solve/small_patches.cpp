@@ -81,7 +81,7 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
     const double lines_a_bundle = pi * plan.sphere.radius * plan.sphere.radius / plan.cell;
     const auto most =
         static_cast<std::size_t>(3e-4 * lines_a_bundle * static_cast<double>(plan.bundles));
-    const double below = mean_area(patches) / 16;
+    const double below = too_small(patches);
     const double exits_an_area = static_cast<double>(plan.gathering) / (2 * plan.cell);
     Emission emission = state.emission;
     emission.quanta = 1;

@@ -122,7 +122,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     Run run{scene, patches, own, plan, rays.get(), banks, listener, nullptr, &regions};
     if (group.stage == Stage::trial) {
         if (plan.try_rays && rays)
-            try_rays(run, group.done, plan);
+            plan = make_plan(scene, patches, settings, try_rays(run, group.done));
         group.begin(true);
     }
     const std::unique_ptr<ExactShot> exact =
