@@ -25,7 +25,15 @@ double quanta_in(const Row& row) {
     return sum;
 }
 
-bool few_quanta(const RunState& run) {
+// Of what arrives at patches, W/m² a band.
+double quanta_in(const std::vector<float>& row, const Patches& patches, double watts_per_quantum) {
+    double sum = 0;
+    for (std::size_t k = 0; k < row.size(); ++k)
+        sum += std::fabs(row[k]) * patches.area[k / patches.bands] / watts_per_quantum;
+    return sum;
+}
+
+bool few_quanta(const RunState& run, const Patches& patches) {
     const DirectLight& direct = run.group.direct;
     const TransferState& state = run.group.state;
     // One of the state's is a whole number of the plan's.
@@ -36,6 +44,8 @@ bool few_quanta(const RunState& run) {
     for (const auto* totals : {&direct.emitted, &direct.absorbed, &direct.escaped, &direct.unshot})
         most = std::max(most, quanta_in(*totals));
     most = std::max(most, quanta_in(direct.shot));
+    for (const auto* row : {&direct.irradiance, &direct.exitance})
+        most = std::max(most, quanta_in(*row, patches, run.plan.watts_per_quantum));
     for (const auto* totals :
          {&state.sent, &state.sky, &state.emitted, &state.absorbed, &state.escaped})
         most = std::max(most, unit * quanta_in(*totals));
@@ -93,7 +103,7 @@ bool sound(const PassResult& pass, const Group& group, const Plan& plan, const P
 bool sound(const RunState& run, const Patches& patches) {
     const Group& group = run.group;
     if (group.stage > Stage::local_rays || !run.rounds.sound() || !run.estimate.sound() ||
-        !run.banks.sound() || !few_quanta(run))
+        !run.banks.sound())
         return false;
     // In rising order, each once.
     for (std::size_t k = 0; k < group.small.size(); ++k)
@@ -101,7 +111,7 @@ bool sound(const RunState& run, const Patches& patches) {
             (k > 0 && group.small[k].patch <= group.small[k - 1].patch))
             return false;
     return sound(group.direct, group, patches) && sound(group.state, group, patches) &&
-           sound(group.pass, group, run.plan, patches);
+           sound(group.pass, group, run.plan, patches) && few_quanta(run, patches);
 }
 
 }  // namespace parallux
