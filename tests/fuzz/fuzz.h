@@ -40,7 +40,9 @@ bool ends_well(std::initializer_list<Fault> faults, Body&& body) {
         require(std::find(faults.begin(), faults.end(), error.fault()) != faults.end(),
                 "a fault that fits the input");
         const std::string_view what = error.what();
-        require(!what.empty() && printable(what, 4096) == what, "a message of one clean line");
+        // What a user has typed is told as typed; complain() escapes it.
+        const bool clean = error.fault() == Fault::usage || printable(what, 4096) == what;
+        require(!what.empty() && clean, "a message of one clean line");
     }
     return false;
 }
