@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# All that takes too long for every change; about three hours on two cores. What came of each part
-# goes to tests/soak-results.md. scripts/soak.sh [PART …], of: plant fuzz asan threads valgrind memory
+# All that takes too long for every change; some hours on two cores. What came of each part goes to
+# tests/soak-results.md. scripts/soak.sh [PART …], of: plant fuzz asan threads valgrind memory faults.
+# SECONDS_A_TARGET and ROUNDS say how long to fuzz and how often to interrupt.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,7 +19,7 @@ part() { # name, command …
     {
         echo "$outcome in $((SECONDS - begin)) s, $(date -u +%F), commit $(git describe --always --dirty 2>/dev/null)"
         echo
-        grep -hE "^  ? ? ?[a-z_]+ [0-9]+ runs|found by|NOT FOUND|tests passed|tests failed|patches, peak|planted" \
+        grep -hE "^ *[a-z_]+ [0-9]+ runs|found by|NOT FOUND|tests passed|tests failed|patches, peak|planted|^== " \
             "$logs/$name.log" | sed 's/^ */    /'
     } >"$logs/$name.md"
 }
@@ -31,24 +32,42 @@ sanitized() { # preset, errors …
         tests/sanitizers/planted.sh "$preset" "$@"
 }
 
+# Every error at every system call, two thousand failing allocations, hundreds of random moments.
+faults() { # rounds
+    local fault code round
+    cmake --preset release && cmake --build --preset release || return
+    for fault in kill errors space odd; do
+        echo "== $fault"
+        code=0
+        tests/faults/$fault.sh "$PWD/build/release/parallux" "$PWD/scenes" all || code=$?
+        ((code == 0 || code == 77)) || return 1
+    done
+    for ((round = 1; round <= $1; round++)); do
+        echo "== round $round of $1"
+        PARALLUX_SOAK=$round build/release/tests/test_checkpoints || return
+        PARALLUX_SOAK=$round build/release/tests/test_cli -sf='*checkpoints.cpp,*signals.cpp' || return
+    done
+}
+
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(plant fuzz asan threads valgrind memory)
+((${#parts[@]} > 0)) || parts=(plant fuzz asan threads valgrind memory faults)
 scripts/install-deps.sh || exit 1
 for name in "${parts[@]}"; do
     case $name in
         plant) part plant scripts/plant.sh ;;
-        fuzz) part fuzz tests/fuzz/fuzz.sh 60 ;;
+        fuzz) part fuzz tests/fuzz/fuzz.sh "${SECONDS_A_TARGET:-60}" ;;
         asan) part asan sanitized asan-ubsan overrun overflow leak ;;
         threads) part threads sanitized threads-check race ;;
         valgrind) part valgrind tests/sanitizers/valgrind.sh ;;
         memory) part memory tests/memory/peaks.sh 1000 10000 100000 1000000 10000000 ;;
+        faults) part faults faults "${ROUNDS:-5}" ;;
         *) echo "soak.sh: no part $name" >&2 && exit 2 ;;
     esac
 done
 
 {
     echo "# What scripts/soak.sh found last"
-    for name in plant fuzz asan threads valgrind memory; do
+    for name in plant fuzz asan threads valgrind memory faults; do
         [[ -f $logs/$name.md ]] || continue
         echo
         echo "## $name"

@@ -25,6 +25,7 @@ inline constexpr std::uint64_t particles = std::uint64_t(4) << 56;
 inline constexpr std::uint64_t local_gather = std::uint64_t(5) << 56;
 inline constexpr std::uint64_t sensors = std::uint64_t(6) << 56;
 inline constexpr std::uint64_t trial_rays = std::uint64_t(7) << 56;
+inline constexpr std::uint64_t ray_steps = std::uint64_t(8) << 56;
 }  // namespace stream
 
 class Random {

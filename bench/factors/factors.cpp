@@ -1,9 +1,14 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "factors/judge.h"
 #include "output/output_file.h"
@@ -17,11 +22,16 @@ using namespace parallux::factor_bench;
 
 namespace {
 
+// Up to so many, the reference's sky is from points.
+constexpr std::size_t few_facets = 2000;
+
 struct Options {
     std::string scene, json;
     std::vector<std::uint64_t> bundles{64, 256, 1024, 4096}, solve{64, 256, 1024, 4096};
+    std::vector<std::uint64_t> lines;
     std::vector<std::uint32_t> rays{16, 64, 256, 1024};
-    std::uint64_t reference = 32768;
+    std::uint64_t reference = 8192;
+    std::size_t facets = 0;
     bool tiny = false;
 };
 
@@ -55,6 +65,37 @@ Scene court() {
     return scene;
 }
 
+// Leaves the facets nearest to the middle of the scene's bounds, seen from above.
+void keep_nearest(std::size_t facets, Scene& scene) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const glm::dvec3& position : scene.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const glm::dvec2 middle(0.5 * (low + high));
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const glm::dvec2 away =
+            glm::dvec2(surface_point(scene, scene.surfaces[s], 1 / 3.0, 1 / 3.0)) - middle;
+        order.emplace_back(glm::dot(away, away), s);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(std::min(order.size(), facets));
+    std::vector<Surface> kept;
+    for (const auto& [distance, s] : order)
+        kept.push_back(scene.surfaces[s]);
+    scene.surfaces = std::move(kept);
+    // Positions that nothing is left of would widen the sphere of lines.
+    std::vector<glm::dvec3> positions;
+    for (Surface& surface : scene.surfaces)
+        for (std::uint32_t& corner : surface.corner)
+            if (corner != none) {
+                positions.push_back(scene.positions[corner]);
+                corner = static_cast<std::uint32_t>(positions.size() - 1);
+            }
+    scene.positions = std::move(positions);
+}
+
 int run(const Options& options) {
     if (!options.json.empty())
         check_writable(options.json);
@@ -64,14 +105,18 @@ int run(const Options& options) {
     }
     LoadSettings load;
     load.keep_triangles = true;
-    const Scene scene = options.tiny ? court() : load_scene(options.scene, load);
+    Scene scene = options.tiny ? court() : load_scene(options.scene, load);
+    if (options.facets > 0)
+        keep_nearest(options.facets, scene);
     PatchSettings facets;
     facets.size = 1e15;
     facets.clusters = false;
     const Patches patches = make_patches(scene, facets);
     const std::string name =
         options.tiny ? "court" : std::filesystem::path(options.scene).parent_path().filename();
-    const Answer reference = by_bundles(scene, patches, options.reference, 1000, 0);
+    Answer reference = by_bundles(scene, patches, options.reference, 1000, 0, SkyFrom::lines);
+    if (scene.surfaces.size() <= few_facets)
+        with_fine_sky(scene, patches, reference);
     std::vector<Row> rows;
     auto take = [&](const std::string& method, std::uint64_t effort, const Answer& answer) {
         rows.push_back(judge(name, method, effort, patches, answer, reference));
@@ -79,7 +124,9 @@ int run(const Options& options) {
     };
     print_heading();
     for (std::uint64_t bundles : options.bundles)
-        take("bundles", bundles, by_bundles(scene, patches, bundles, 1, 1));
+        take("bundles", bundles, by_bundles(scene, patches, bundles, 1, 1, SkyFrom::automatic));
+    for (std::uint64_t bundles : options.lines)
+        take("lines", bundles, by_bundles(scene, patches, bundles, 1, 1, SkyFrom::lines));
     for (std::uint32_t rays : options.rays)
         take("rays", rays, by_rays(scene, patches, rays, 1));
     for (std::uint64_t bundles : options.solve)
@@ -102,9 +149,12 @@ int main(int argc, char** argv) {
     app.add_option("--scene", options.scene, "A scene of triangles");
     app.add_option("--json", options.json, "Where to write the rows");
     app.add_option("--bundles", options.bundles, "Lengths of bundles")->delimiter(',');
+    app.add_option("--lines", options.lines, "The same with all sky factors from lines")
+        ->delimiter(',');
     app.add_option("--rays", options.rays, "Rays a facet")->delimiter(',');
     app.add_option("--solve", options.solve, "Lengths of the solver")->delimiter(',');
     app.add_option("--reference", options.reference, "Bundles of the reference");
+    app.add_option("--facets", options.facets, "Only so many in the scene's middle; 0: all");
     app.add_flag("--tiny", options.tiny, "A court; exit code 1 when the methods do not agree");
     CLI11_PARSE(app, argc, argv);
     if (options.tiny) {

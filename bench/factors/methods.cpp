@@ -6,7 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "factors/gauss_legendre.h"
+#include "factors/open_sky.h"
 #include "lines/ray_scene.h"
+#include "patches/patch_values.h"
 #include "random.h"
 #include "solve/sobol.h"
 
@@ -63,13 +66,14 @@ Place place_of(const glm::dvec3 corner[3], const glm::dvec3 frame[3],
 }  // namespace
 
 Answer by_bundles(const Scene& scene, const Patches& patches, std::uint64_t bundles,
-                  std::uint64_t seed, unsigned threads) {
+                  std::uint64_t seed, unsigned threads, SkyFrom sky_from) {
     const auto start = Clock::now();
     FactorSettings settings;
     settings.bundles = bundles;
     settings.seed = seed;
     settings.threads = threads;
     settings.groups = 1;
+    settings.sky_from = sky_from;
     Factors factors = view_factors(scene, patches, settings);
     Answer answer;
     for (std::size_t i = 0; i < factors.nodes.size(); ++i) {
@@ -83,6 +87,33 @@ Answer by_bundles(const Scene& scene, const Patches& patches, std::uint64_t bund
     reflect(patches, answer);
     answer.seconds = seconds_since(start);
     return answer;
+}
+
+void with_fine_sky(const Scene& scene, const Patches& patches, Answer& answer) {
+    constexpr unsigned cuts = 4;
+    const SkyBlockers blockers(scene);
+    SkyBlockers::View view(blockers);
+    const GaussRule rule(5);
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        const glm::dvec3 corner[3] = {surface_point(scene, surface, 0, 0),
+                                      surface_point(scene, surface, 1, 0),
+                                      surface_point(scene, surface, 0, 1)};
+        view.turn(corner, surface_normal(scene, surface));
+        double sum = 0;
+        const SurfaceGrid grid{0, none, cuts, cuts};
+        for_each_cell(Shape::triangle, grid, [&](const Cell& c) {
+            for (const GaussNode& a : rule)
+                for (const GaussNode& b : rule) {
+                    const double x = (1 + a.place) / 2, y = (1 + b.place) / 2;
+                    sum += a.weight * b.weight / 2 * x *
+                           view.sky(surface_point(scene, surface, c.u0 + x * (1 - y) * c.du,
+                                                  c.v0 + x * y * c.dv));
+                }
+        });
+        answer.sky[patches.grids[s].front] = sum / (cuts * cuts);
+    }
+    reflect(patches, answer);
 }
 
 Answer by_rays(const Scene& scene, const Patches& patches, std::uint32_t rays, std::uint64_t seed) {

@@ -116,10 +116,12 @@ Twofold follow_and_count(const Room& room, const SolveSettings& settings) {
     Banks banks(patches.count(), patches.bands, plan.threads, plan.bank_bytes);
     const RayScene rays(room.scene, plan.threads);
     const Run run{room.scene, patches, settings, plan, &rays, banks, listener};
-    DirectLight direct = first_shot(run);
+    Group group;
+    first_shot(run, group);
+    DirectLight& direct = group.direct;
     settle(run, direct);
     TransferState state = dark_state(patches, plan.watts_per_quantum);
-    state.emission = emission_of(run, direct);
+    state.emission = emission_of(patches, direct);
     state.emission.quanta = emission_quanta(plan, state);
     banks.join(plan.threads);
     CountedLines counted(room.scene, patches);

@@ -17,9 +17,11 @@ Transfers::Transfers(const Case& of, unsigned threads)
     const ProgressCallback nobody;
     Listener listener(nobody, 0);
     const Run run{of.scene, of.patches, settings_, plan_, nullptr, banks_, listener};
-    direct_ = first_shot(run);
+    Group group;
+    first_shot(run, group);
+    direct_ = std::move(group.direct);
     settle(run, direct_);
-    state_.emission = emission_of(run, direct_);
+    state_.emission = emission_of(of.patches, direct_);
     state_.watts_per_quantum = carried_quantum(run, state_.emission);
     merge_batch();
 }

@@ -22,12 +22,21 @@ enum class FactorNodes { patches, surfaces, objects, materials };
 /// luminance measurements, 1987); or those of C. F. Reinhart, each side halved: 577.
 enum class SkyParts { whole, tregenza, reinhart };
 
+/// Where sky factors come from: the counted lines, or points on each patch, at which they are in
+/// closed form past the scene's polygons; with `automatic`, points where they cost no more than
+/// two or three times what counting does (scenes of few polygons), the scene does not repeat, and
+/// the sky is one.
+enum class SkyFrom { automatic, lines, points };
+
 struct FactorSettings {
     FactorNodes between = FactorNodes::patches;
     SkyParts sky_parts = SkyParts::whole;
+    SkyFrom sky_from = SkyFrom::automatic;
+    double sky_tolerance = 1e-4;   ///< points: when more of them change a patch by less, enough
     std::uint64_t bundles = 4096;  ///< of all groups together
     double line_spacing = 0;       ///< δ, metres; 0: from lines_per_patch
-    double lines_per_patch = 0;    ///< c: δ² = mean patch area / c; 0: 4, more in scenes of few
+    double lines_per_patch = 0;    ///< c: δ² = mean patch area / c; 0: 4 to 64, as the third
+                                   ///< root of a group's bundles, 8 at 128; more in scenes of few
                                    ///< patches, so that a bundle has 16 384 lines
     std::uint32_t groups = 0;      ///< whose spread tells the errors; 0: 8 from 64 bundles on
     DirectionSet directions = DirectionSet::lattice;
@@ -57,8 +66,9 @@ struct Factors {
     /// scene below the horizon), then to inert backs of one-sided surfaces.
     std::vector<double> outside;
     std::vector<double> outside_error;  ///< standard errors, from groups; empty from one alone
-    std::vector<double> sky_error;      ///< of a node's whole sky
-    std::vector<std::uint64_t> exits;   ///< lines that left each node
+    std::vector<double> sky_error;      ///< of a node's whole sky; from points: a bound in practice
+    bool sky_from_points = false;
+    std::vector<std::uint64_t> exits;  ///< lines that left each node, weighed, rounded up
 
     double rms_factor = 0;  ///< √(Σ_i A_i Σ_j σ_ij² / Σ_i A_i), σ_ij standard error of F_ij
     double rms_sky = 0;     ///< √(Σ_i A_i σ_i² / Σ_i A_i), of the whole sky
@@ -72,7 +82,7 @@ struct Factors {
     double line_spacing = 0;
     unsigned threads = 0;
     std::uint64_t predicted_memory = 0;  ///< bytes, as said after the first bundles
-    double count_seconds = 0, scale_seconds = 0;
+    double count_seconds = 0, sky_seconds = 0, scale_seconds = 0;
     bool partial = false;
     std::vector<std::string> warnings;
 

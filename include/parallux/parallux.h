@@ -3,6 +3,7 @@
 /// \file Everything a user of the library needs, in the order of the flow.
 #include "parallux/bake.h"
 #include "parallux/changes.h"
+#include "parallux/checkpoints.h"
 #include "parallux/error.h"
 #include "parallux/factors.h"
 #include "parallux/lightmap.h"

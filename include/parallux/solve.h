@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "parallux/checkpoints.h"
 #include "parallux/lines.h"
 #include "parallux/patches.h"
 #include "parallux/scene.h"
@@ -64,6 +65,9 @@ struct SolveSettings {
     std::uint64_t max_memory = 0;  ///< bytes; 0: no limit
     double time_limit = 0;         ///< seconds; 0: none. A stopped run is marked partial.
     double sphere_radius = 0;      ///< of independent lines; 0: the scene's
+    /// Of bundles, and of lines in batches. Those up to here, but for threads, memory and time, are
+    /// part of the result: a checkpoint of others is refused.
+    Checkpoints checkpoints = {};
 };
 
 /// What a run to a stated error still needs, as its rounds so far tell.
@@ -140,9 +144,9 @@ struct Preview {
 };
 
 /// Solves H = F B, B = E + ρ H. Equal scene, patches and settings give equal bits on any number of
-/// threads, previewed or not. Storage is linear in the patches, but for the matrix. Throws
-/// Fault::memory before taking more than max_memory, Fault::usage for settings that contradict each
-/// other.
+/// threads, previewed or not, interrupted and resumed or not. Storage is linear in the patches, but
+/// for the matrix. Throws Fault::memory before taking more than max_memory, Fault::usage for
+/// settings that contradict each other.
 Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& settings,
                const ProgressCallback& progress = {}, const Preview& preview = {});
 

@@ -31,7 +31,6 @@ void write_files(const FactorsOptions& options, const Scene& scene, const Patche
     auto write = [&](const std::filesystem::path& file, auto&& writer) {
         if (file.empty())
             return;
-        WritingFile guard;
         writer(file);
         run.bytes += std::filesystem::file_size(file);
     };

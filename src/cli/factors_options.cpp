@@ -94,6 +94,14 @@ void add_nodes(CLI::App& app, FactorsOptions& o) {
                                                       {"tregenza", SkyParts::tregenza},
                                                       {"reinhart", SkyParts::reinhart}});
     });
+    option("--sky-from", "S",
+           "lines, or points on each patch; auto: points where they cost little [auto]",
+           [&o](auto& v) {
+               o.factors.sky_from = parse_choice<SkyFrom>("--sky-from", v,
+                                                          {{"auto", SkyFrom::automatic},
+                                                           {"lines", SkyFrom::lines},
+                                                           {"points", SkyFrom::points}});
+           });
     option("--threshold", "T",
            "Leave out factors below T both ways; what they had goes to the others of the row [0]",
            [&o](auto& v) { o.factors.threshold = parse_real("--threshold", v, 0, 1); });
@@ -106,7 +114,7 @@ void add_lines(CLI::App& app, FactorsOptions& o) {
            [&s](auto& v) { s.bundles = parse_count("--bundles", v, 1); });
     auto* spacing = option("--line-spacing", "L", "Between a bundle's lines, in the scene's units",
                            [&s](auto& v) { s.line_spacing = parse_positive("--line-spacing", v); });
-    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4, or more]",
+    option("--lines-per-patch", "C", "Lines of a bundle over a mean patch's area [4 to 64]",
            [&s](auto& v) { s.lines_per_patch = parse_positive("--lines-per-patch", v); })
         ->excludes(spacing);
     option("--groups", "R", "Parts of the bundles whose spread tells the error; 1: unknown [8]",

@@ -3,9 +3,13 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 
-#include <pthread.h>
 #include <unistd.h>
+
+#include "cli/terminal.h"
+#include "output/output_file.h"
 
 namespace parallux {
 
@@ -13,36 +17,37 @@ namespace {
 
 // Lock-free, hence fit for a signal handler.
 std::atomic<int> signals{0};
-std::atomic<bool> keeping{false};
-std::atomic<bool> writing{false};
-std::atomic<bool> end_after_writing{false};
+std::atomic<bool> keeping{false}, wanted{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
-pthread_t watcher;
 
 extern "C" void on_signal(int number) {
-    int saved = errno;
-    if (!pthread_equal(pthread_self(), watcher)) {
-        pthread_kill(watcher, number);
-        errno = saved;
-        return;
-    }
-    bool at_once = signals.fetch_add(1) > 0 || !keeping;
-    if (at_once && !writing)
+    const int saved = errno;
+    if (number == SIGUSR1) {
+        wanted = true;
+    } else if (signals.fetch_add(1) > 0 || !keeping) {
+        remove_temporaries();
         _exit(exit_interrupted);
-    if (at_once)
-        end_after_writing = true;
+    }
     errno = saved;
 }
 
 }  // namespace
 
 void watch_signals() {
-    watcher = pthread_self();
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    for (int number : {SIGINT, SIGTERM, SIGUSR1})
+        sigaction(number, &action, nullptr);
+}
+
+void end_cleanly() {
+    std::set_terminate([] {
+        remove_temporaries();
+        if (!std::current_exception())
+            std::abort();
+        std::_Exit(report_failure());
+    });
 }
 
 void keep_results() {
@@ -53,14 +58,8 @@ bool interrupted() {
     return signals > 0;
 }
 
-WritingFile::WritingFile() {
-    writing = true;
-}
-
-WritingFile::~WritingFile() {
-    writing = false;
-    if (end_after_writing)
-        _exit(exit_interrupted);
+bool checkpoint_wanted() {
+    return wanted.exchange(false);
 }
 
 }  // namespace parallux

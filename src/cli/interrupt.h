@@ -2,14 +2,19 @@
 
 // Ctrl-C and SIGTERM. While there is nothing worth keeping the first one ends the program at once;
 // from keep_results() on the first asks the solve to stop after its batch, the second ends the
-// program at once.
+// program at once. SIGUSR1 asks for a checkpoint. No temporary file is left behind.
 
 namespace parallux {
 
 inline constexpr int exit_interrupted = 130;
 
-/// Call once, from the thread that will write the files.
+/// Call once.
 void watch_signals();
+
+/// From now on an exception that a library lets out of a function which promises none (as the
+/// parser of arguments does when memory ends) also ends the program with its line and its exit
+/// code.
+void end_cleanly();
 
 /// From now on the first signal is answered with a partial result.
 void keep_results();
@@ -17,16 +22,7 @@ void keep_results();
 /// True once a signal has come.
 bool interrupted();
 
-/// While one lives, a temporary file may exist: a signal that would end the program at once waits
-/// for it, so that nothing is left behind. That is one file's writing, not its computing. Writing
-/// takes place on the thread of watch_signals(), which also handles every signal: the two can not
-/// overtake each other.
-class WritingFile {
-public:
-    WritingFile();
-    ~WritingFile();
-    WritingFile(const WritingFile&) = delete;
-    WritingFile& operator=(const WritingFile&) = delete;
-};
+/// True once after each SIGUSR1.
+bool checkpoint_wanted();
 
 }  // namespace parallux

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <functional>
 #include <optional>
 
@@ -45,6 +46,15 @@ int solve_scene(SolveOptions options) {
     std::optional<FluxMeter> meter;
     if (!options.fluxes.empty())
         meter.emplace(scene, patches, options.flux_unit);
+    std::string unkept;  // why the last checkpoint could not be written
+    options.solve.checkpoints.wanted = checkpoint_wanted;
+    options.solve.checkpoints.written = [&](const std::string& failure) {
+        if (!failure.empty() && unkept.empty()) {
+            report.end();
+            complain("warning: " + failure + "; the run goes on without this checkpoint");
+        }
+        unkept = failure;
+    };
     Solution solution = solve(scene, patches, options.solve, std::ref(report),
                               meter ? meter->preview() : refresh.preview());
     report.end();
@@ -58,10 +68,17 @@ int solve_scene(SolveOptions options) {
         tell_summary(options, scene, patches, solution);
     if (!options.quiet && meter)
         print(describe_fluxes(measured.fluxes));
+    const std::filesystem::path& kept = options.solve.checkpoints.file;
+    if (solution.partial && !kept.empty() && !unkept.empty())
+        throw Error(Fault::output, unkept + "; the run cannot be taken up again from here");
+    const std::string how =
+        solution.partial && !kept.empty() ? "; to go on: --resume " + kept.string() : "";
     if (interrupted()) {
-        complain("parallux: interrupted; the outputs hold what was done until then");
+        complain("parallux: interrupted; the outputs hold what was done until then" + how);
         return exit_interrupted;
     }
+    if (!how.empty() && !options.quiet)
+        complain("parallux: stopped before its end" + how);
     return target_met(options.solve, solution) ? 0 : exit_above_tolerance;
 }
 
@@ -98,9 +115,11 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
     try {
         guard_standard_streams();
+        end_cleanly();
         watch_signals();
         return run(parse_options(argc, argv));
     } catch (...) {
-        return report_failure();
+        // A library that was left half-way by an exception need not stand its own end.
+        std::_Exit(report_failure());
     }
 }

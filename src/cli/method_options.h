@@ -22,4 +22,7 @@ void add_workers(CLI::App& app, SolveOptions& options);
 /// The same, memory, time, and what is told meanwhile.
 void add_run(CLI::App& app, SolveOptions& options);
 
+/// When a run is kept, and from where it is taken up.
+void add_checkpoints(CLI::App& app, SolveOptions& options);
+
 }  // namespace parallux

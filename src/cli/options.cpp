@@ -30,19 +30,6 @@ CLI::Option* add(CLI::App& app, const std::string& name, const std::string& valu
     return app.add_option_function<std::string>(name, read, help)->type_name(value);
 }
 
-/// What the program will do one day but cannot do yet is refused, never ignored.
-[[noreturn]] void not_available(const std::string& what) {
-    throw Error(Fault::usage, what + " is not available in this version");
-}
-
-void add_unavailable(CLI::App& app) {
-    for (std::string name : {"--checkpoint", "--resume"})
-        app.add_option_function<std::vector<std::string>>(
-               name, [name](const std::vector<std::string>&) { not_available(name); })
-            ->expected(0, 1)
-            ->group("");
-}
-
 CLI::App* add_info(CLI::App& app, InfoOptions& o) {
     auto* info = app.add_subcommand("info", "Say what a scene holds");
     add_scene(*info, o.scene, o.load);
@@ -83,7 +70,7 @@ CLI::App* add_solve(CLI::App& app, SolveOptions& o) {
     add_patches(*solve, o.patches);
     add_method(*solve, o.solve);
     add_run(*solve, o);
-    add_unavailable(*solve);
+    add_checkpoints(*solve, o);
     return solve;
 }
 
@@ -104,8 +91,8 @@ std::vector<std::filesystem::path> SolveOptions::outputs() const {
     files.insert(files.end(), object_lightmaps.begin(), object_lightmaps.end());
     const std::filesystem::path shared =
         lightmap_settings.by_object ? std::filesystem::path() : lightmap;
-    for (const std::filesystem::path& file :
-         {save, table, fluxes, sensor_table, stats, shared, lightmap_mesh(lightmap)})
+    for (const std::filesystem::path& file : {save, table, fluxes, sensor_table, stats, shared,
+                                              lightmap_mesh(lightmap), solve.checkpoints.file})
         if (!file.empty())
             files.push_back(file);
     return files;
@@ -113,8 +100,13 @@ std::vector<std::filesystem::path> SolveOptions::outputs() const {
 
 std::vector<std::filesystem::path> SolveOptions::inputs() const {
     std::vector<std::filesystem::path> files = {scene};
+    // A run may go on in the checkpoint that it is taken up from.
+    std::error_code ignored;
+    const Checkpoints& kept = solve.checkpoints;
+    const bool same = std::filesystem::equivalent(kept.file, kept.resume, ignored);
     for (const std::filesystem::path& file :
-         {result, changes.materials, changes.temperatures, sensors})
+         {result, changes.materials, changes.temperatures, sensors,
+          same ? std::filesystem::path() : kept.resume})
         if (!file.empty())
             files.push_back(file);
     return files;

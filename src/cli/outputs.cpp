@@ -5,7 +5,6 @@
 #include <functional>
 #include <optional>
 
-#include "cli/interrupt.h"
 #include "output/output_file.h"
 
 namespace parallux {
@@ -54,10 +53,7 @@ void save(const SolveOptions& options, const Scene& scene, const Patches& patche
     SavedSolution result{PARALLUX_VERSION, scene_hash(scene, patches), options.scene_arguments,
                          options.solve, std::move(solution)};
     Attempts attempt;
-    attempt([&] {
-        WritingFile guard;
-        write_result(options.save, result);
-    });
+    attempt([&] { write_result(options.save, result); });
     solution = std::move(result.solution);
     attempt.rethrow();
 }
@@ -67,22 +63,15 @@ void write_lightmaps(const SolveOptions& options, const Scene& scene, const Patc
     const LightmapSettings& settings = options.lightmap_settings;
     if (!settings.by_object) {
         const Lightmap lightmap = make_lightmap(scene, patches, solution, settings);
-        WritingFile guard;
         return write_lightmap(options.lightmap, scene, lightmap);
     }
     const auto pictures = object_lightmaps(options.lightmap, scene);
     const Bake mesh = own_uv_mesh(scene, patches, settings);
     Attempts attempt;
     make_object_lightmaps(scene, patches, solution, settings, [&](const Lightmap& lightmap) {
-        attempt([&] {
-            WritingFile guard;
-            write_lightmap_picture(pictures[lightmap.object], scene, lightmap);
-        });
+        attempt([&] { write_lightmap_picture(pictures[lightmap.object], scene, lightmap); });
     });
-    attempt([&] {
-        WritingFile guard;
-        write_lightmap_mesh(lightmap_mesh(options.lightmap), scene, mesh, pictures);
-    });
+    attempt([&] { write_lightmap_mesh(lightmap_mesh(options.lightmap), scene, mesh, pictures); });
     attempt.rethrow();
 }
 
@@ -108,7 +97,6 @@ void check_files(const std::vector<std::filesystem::path>& files,
                             files[i].string() + ": is named for two outputs; choose another name");
     }
     for (const std::filesystem::path& file : files) {
-        WritingFile guard;
         check_writable(file);
     }
 }
@@ -133,10 +121,7 @@ void write_images(const SolveOptions& options, const Scene& scene, const Patches
         render(scene, patches, solution, choose_camera(scene, options.camera), options.picture);
     Attempts attempt;
     for (const std::filesystem::path& file : options.images)
-        attempt([&] {
-            WritingFile guard;
-            write_picture(file, picture, options.picture);
-        });
+        attempt([&] { write_picture(file, picture, options.picture); });
     attempt.rethrow();
 }
 
@@ -152,10 +137,7 @@ void write_bakes(const SolveOptions& options, const Scene& scene, const Patches&
         std::optional<Bake>& bake = settings.textures ? with_pictures : plain;
         if (!bake)
             bake = make_bake(scene, patches, solution, settings);
-        attempt([&] {
-            WritingFile guard;
-            write_bake(file, scene, *bake);
-        });
+        attempt([&] { write_bake(file, scene, *bake); });
     }
     attempt.rethrow();
 }
@@ -167,20 +149,13 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
     if (!options.save.empty())
         attempt([&] { save(options, scene, patches, solution, before); });
     if (!options.table.empty())
-        attempt([&] {
-            WritingFile guard;
-            write_table(options.table, scene, patches, solution, measured.receivers);
-        });
+        attempt([&] { write_table(options.table, scene, patches, solution, measured.receivers); });
     if (!options.fluxes.empty())
-        attempt([&] {
-            WritingFile guard;
-            write_fluxes(options.fluxes, measured.fluxes);
-        });
+        attempt([&] { write_fluxes(options.fluxes, measured.fluxes); });
     if (!options.sensor_table.empty())
         attempt([&] {
             const SensorReadings readings =
                 sense(scene, patches, solution, measured.sensors, options.sensing);
-            WritingFile guard;
             write_sensors(options.sensor_table, measured.sensors, readings);
         });
     if (!options.images.empty())
@@ -194,10 +169,7 @@ void write_outputs(const SolveOptions& options, const Scene& scene, const Patche
         solution.seconds.output = solution.seconds.total - before;
     }
     if (!options.stats.empty())
-        attempt([&] {
-            WritingFile guard;
-            write_stats(options.stats, scene, patches, options.solve, solution);
-        });
+        attempt([&] { write_stats(options.stats, scene, patches, options.solve, solution); });
     attempt.rethrow();
 }
 

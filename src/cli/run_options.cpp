@@ -55,4 +55,21 @@ void add_run(CLI::App& app, SolveOptions& o) {
            });
 }
 
+void add_checkpoints(CLI::App& app, SolveOptions& o) {
+    Checkpoints& checkpoints = o.solve.checkpoints;
+    const OptionGroup option{app, "Run"};
+    auto* file = option(
+        "--checkpoint", "FILE",
+        "Keep the run's state here while it goes on, and when it is stopped by SIGINT, SIGTERM or "
+        "--time-limit; SIGUSR1 asks for it at once",
+        [&](auto& v) { checkpoints.file = parse_output("--checkpoint", v); });
+    option("--checkpoint-every", "S", "At most so often, in seconds [60]", [&](auto& v) {
+        checkpoints.every = parse_positive("--checkpoint-every", v);
+    })->needs(file);
+    option("--resume", "FILE",
+           "Go on from a checkpoint of this very scene and these settings, on any number of "
+           "threads; the result has the same bits",
+           [&](auto& v) { checkpoints.resume = parse_output("--resume", v); });
+}
+
 }  // namespace parallux

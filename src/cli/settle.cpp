@@ -16,6 +16,8 @@ void settle(SolveOptions& o) {
         o.solve.first_shot == FirstShot::rays || o.solve.first_shot == FirstShot::automatic;
     contradict(!shot_by_rays && o.solve.first_shot_rays > 0,
                "--first-shot-rays needs --first-shot rays");
+    contradict(o.solve.checkpoints.any() && !o.fluxes.empty(),
+               "--fluxes has no checkpoints; leave --checkpoint and --resume away");
     contradict(o.refresh > 0 && (o.solve.method != Method::bundles || o.solve.groups == 1),
                "--refresh needs --method bundles and more than one group");
     bool independent = o.solve.method == Method::lines || o.solve.method == Method::matrix;

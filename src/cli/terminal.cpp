@@ -32,6 +32,7 @@ int write_all(int descriptor, const std::string& text) {
 
 void guard_standard_streams() {
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     // open() gives the lowest free number, so each gap is filled in turn. Opened the wrong way
     // round, standard output refuses every write.
     const int modes[] = {O_WRONLY, O_RDONLY, O_WRONLY};

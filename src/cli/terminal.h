@@ -8,7 +8,8 @@ namespace parallux {
 
 /// Before anything is opened: a standard stream that the caller has closed must not become the
 /// number of a file of ours. Writing to a closed standard output then fails as it should; so does
-/// writing to a pipe that nobody reads, instead of ending the program unheard.
+/// writing to a pipe that nobody reads, or beyond a limit on files, instead of ending the program
+/// unheard.
 void guard_standard_streams();
 
 /// Writes all of it to standard output; throws Fault::output when it is closed or full.

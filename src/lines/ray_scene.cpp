@@ -73,6 +73,11 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
+[[noreturn]] void fail(const std::string& what, RTCError error) {
+    throw Error(error == RTC_ERROR_OUT_OF_MEMORY ? Fault::memory : Fault::internal,
+                "Embree cannot " + what + " (error " + std::to_string(error) + ")");
+}
+
 }  // namespace
 
 struct RayScene::Data {
@@ -152,7 +157,7 @@ struct RayScene::Data {
 RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_unique<Data>()) {
     data_->device = rtcNewDevice(nullptr);
     if (!data_->device)
-        throw Error(Fault::internal, "Embree cannot start on this machine");
+        fail("start on this machine", rtcGetDeviceError(nullptr));
     Bounds bounds = scene_bounds(scene);
     data_->centre = 0.5 * (bounds.low + bounds.high);
     data_->scene = rtcNewScene(data_->device);
@@ -165,8 +170,7 @@ RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_uniqu
     tbb::task_arena arena(static_cast<int>(workers));
     arena.execute([&] { rtcCommitScene(data_->scene); });
     if (RTCError error = rtcGetDeviceError(data_->device); error != RTC_ERROR_NONE)
-        throw Error(error == RTC_ERROR_OUT_OF_MEMORY ? Fault::memory : Fault::internal,
-                    "Embree cannot build the scene (error " + std::to_string(error) + ")");
+        fail("build the scene", error);
 }
 
 RayScene::~RayScene() = default;

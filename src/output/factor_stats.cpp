@@ -52,6 +52,7 @@ void write_factor_stats(const std::filesystem::path& file, const Scene& scene,
     stats["patches"] = patches.count();
     stats["surfaces"] = scene.surfaces.size();
     stats["sky_parts"] = factors.sky_parts;
+    stats["sky_from"] = factors.sky_from_points ? "points" : "lines";
     stats["seed"] = settings.seed;
     stats["threads"] = factors.threads;
     stats["bundles"] = factors.bundles;
@@ -71,8 +72,9 @@ void write_factor_stats(const std::filesystem::path& file, const Scene& scene,
                            {"rows_without_lines", factors.unseen},
                            {"rest_of_area", factors.rest}};
     stats["seconds"] = {{"load", run.load_seconds},       {"patches", run.patches_seconds},
-                        {"count", factors.count_seconds}, {"scale", factors.scale_seconds},
-                        {"output", run.output_seconds},   {"total", run.total_seconds}};
+                        {"count", factors.count_seconds}, {"sky", factors.sky_seconds},
+                        {"scale", factors.scale_seconds}, {"output", run.output_seconds},
+                        {"total", run.total_seconds}};
     stats["bytes"] = run.bytes;
     stats["predicted_memory_bytes"] = factors.predicted_memory;
     stats["peak_memory_bytes"] = peak_memory();

@@ -1,6 +1,9 @@
 #include "output/output_file.h"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 
 #include <fcntl.h>
@@ -23,6 +26,33 @@ std::filesystem::path folder_of(const std::filesystem::path& target) {
 
 }  // namespace
 
+// Where a signal's handler finds a temporary's name: it is there before the file is, and stays
+// readable at any time.
+struct OutputFile::Name {
+    std::atomic<bool> taken{false};
+    char text[PATH_MAX] = "";
+
+    static std::array<Name, 16> all;
+
+    static Name* take(const std::string& pattern) {
+        for (Name& name : all)
+            if (pattern.size() < sizeof name.text && !name.taken.exchange(true)) {
+                std::memcpy(name.text, pattern.c_str(), pattern.size() + 1);
+                return &name;
+            }
+        errno = pattern.size() < PATH_MAX ? EMFILE : ENAMETOOLONG;
+        return nullptr;
+    }
+};
+
+std::array<OutputFile::Name, 16> OutputFile::Name::all;
+
+void remove_temporaries() {
+    for (const OutputFile::Name& name : OutputFile::Name::all)
+        if (name.taken)
+            unlink(name.text);
+}
+
 OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)) {
     // A link is followed, so that the file it names is replaced and not the link itself.
     std::error_code ignored;
@@ -35,14 +65,22 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
         errno = EISDIR;
         fail(target_, "write");
     }
+    // A device or a pipe would be replaced by a file.
+    if (std::filesystem::exists(target_, ignored) &&
+        !std::filesystem::is_regular_file(target_, ignored))
+        throw Error(Fault::output, target_.string() + ": cannot write: it is no regular file");
     // The ending stays last, because image libraries choose the format by it.
     std::string name = "." + target_.stem().string() + ".XXXXXX" + target_.extension().string();
-    std::string pattern = (folder_of(target_) / name).string();
-    descriptor_ =
-        mkostemps(pattern.data(), static_cast<int>(target_.extension().string().size()), O_CLOEXEC);
-    if (descriptor_ < 0)
+    name_ = Name::take((folder_of(target_) / name).string());
+    if (!name_)
         fail(target_, "write");
-    temporary_ = pattern;
+    descriptor_ =
+        mkostemps(name_->text, static_cast<int>(target_.extension().string().size()), O_CLOEXEC);
+    if (descriptor_ < 0) {
+        name_->taken = false;
+        fail(target_, "write");
+    }
+    temporary_ = name_->text;
     // An ordinary file's rights, not the private ones of a temporary; an older file keeps its own.
     struct stat old {};
     mode_t mode = 0;
@@ -61,6 +99,7 @@ OutputFile::~OutputFile() {
         close(descriptor_);
     if (!temporary_.empty())
         unlink(temporary_.c_str());
+    name_->taken = false;
 }
 
 void OutputFile::write(std::string_view bytes) {

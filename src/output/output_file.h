@@ -9,7 +9,7 @@ namespace parallux {
 /// The one way to write a file: bytes go to a temporary in the same folder; commit() checks every
 /// write, fsyncs, closes, renames over the target and fsyncs the folder. Destroyed without
 /// commit(), the temporary is gone and an older file stays as it was. Throws Fault::output naming
-/// the file and the system's reason.
+/// the file and the system's reason. At most 16 at a time, on any threads.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path target);
@@ -23,9 +23,17 @@ public:
     const std::filesystem::path& temporary() const { return temporary_; }
 
 private:
+    friend void remove_temporaries();
+    struct Name;
+
     std::filesystem::path target_, temporary_;
+    Name* name_ = nullptr;  // of the temporary, while there is one
     int descriptor_ = -1;
 };
+
+/// Removes the temporaries of all OutputFiles that there are now: for a signal's handler that ends
+/// the program next. Async-signal-safe.
+void remove_temporaries();
 
 /// Throws Fault::output unless a file could be written here now. Leaves nothing behind.
 void check_writable(const std::filesystem::path& target);

@@ -58,12 +58,22 @@ double exposure_factor(const Picture& picture, const PictureSettings& settings) 
 }
 
 double usual_luminance(const Patches& patches, const Solution& solution) {
+    // The light of a patch that mostly reflects; 0 of others.
+    auto reflected = [&](std::size_t p) {
+        const double l = luminance(&solution.radiosity[p * solution.bands], solution.bands) / pi;
+        const double e = luminance(&patches.emission[p * solution.bands], solution.bands) / pi;
+        return e < l / 2 ? l : 0;
+    };
+    double light = 0, lit = 0;
+    for (std::size_t p = 0; p < patches.count(); ++p) {
+        if (const double l = reflected(p); l > 0)
+            light += patches.area[p] * l, lit += patches.area[p];
+    }
+    // What is all but dark has no say: the outer sides of walls, where a crack lets a glint through.
+    const double dark = lit > 0 ? 1e-3 * light / lit : 0;
     double sum = 0, area = 0;
     for (std::size_t p = 0; p < patches.count(); ++p) {
-        const float* b = &solution.radiosity[p * solution.bands];
-        double l = luminance(b, solution.bands) / pi;
-        double emitted = luminance(&patches.emission[p * solution.bands], solution.bands) / pi;
-        if (l > 0 && emitted < l / 2)
+        if (const double l = reflected(p); l > dark)
             sum += patches.area[p] * std::log(l), area += patches.area[p];
     }
     return area > 0 ? std::exp(sum / area) : 1;

@@ -14,7 +14,7 @@ double luminance(const float* values, std::uint32_t bands);
 inline constexpr double middle_grey = 0.18;
 
 /// Log-mean radiance of the patches that mostly reflect, by area: how bright a sample is beside the
-/// rest. 1 where nothing is lit.
+/// rest. Those below a thousandth of the mean are not among them. 1 where nothing is lit.
 double usual_luminance(const Patches& patches, const Solution& solution);
 
 /// The factor that brings a picture to the screen: the log-mean of what is lit, neither emitter,

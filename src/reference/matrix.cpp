@@ -218,7 +218,7 @@ PassResult matrix_pass(const Run& run, DirectLight& direct, TransferState& state
                                   " patches were left by no line and stay dark");
 
     // Solve each band, and say where its power went: all that was reflected has been sent on.
-    Emission exitance = emission_of(run, direct);
+    Emission exitance = emission_of(run.patches, direct);
     exitance.quanta = 1;
     for (std::uint32_t band = 0; band < bands; ++band) {
         std::vector<double> emission(run.patches.count());

@@ -93,7 +93,7 @@ PassResult particle_pass(const Run& run, DirectLight& direct, TransferState& sta
     add_sky_points(run, direct);
     settle(run, direct);
     PassResult result;
-    Emission exitance = emission_of(run, direct);
+    Emission exitance = emission_of(run.patches, direct);
     exitance.quanta = 1 / run.plan.watts_per_quantum;
     const Emitters emitters = emitters_of(run.scene, run.patches, [&](std::size_t k) {
         return std::llrint(run.patches.area[k / state.bands] * exitance.of_exit(run.patches, k));

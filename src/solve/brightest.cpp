@@ -52,7 +52,7 @@ void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSetting
     if (exact)
         receivers = std::make_shared<std::vector<Emitter>>(all_cells(run.scene, run.patches));
     direct.arrived = true;
-    direct.shot.assign(run.patches.reflectance.size(), 0);
+    direct.shot.resize(run.patches.reflectance.size(), 0);
     const double emitted = sum_of(direct.emitted), enough = settings.until * emitted;
     auto go_on = [&](double left) {
         double done = settings.shots
@@ -75,14 +75,16 @@ void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSetting
 
         // Shoot it: what left the patch is what the shot says it emitted.
         std::vector<std::int64_t> shot(bands, 0);
+        std::uint64_t done = 0;
         if (exact) {
-            ExactShot(run.scene, run.patches, *run.rays, receivers, emitters, run.plan.threads)
-                .shoot(run, shot, direct.escaped);
+            ExactShot(run.scene, run.patches, *run.rays, receivers, emitters, run.plan.threads, [] {
+                return true;
+            }).shoot(run, shot, direct.escaped, done, [](double) { return true; });
         } else {
             auto rays = static_cast<std::uint64_t>(std::clamp(
                 static_cast<double>(brightest.most) / emitted * settings.rays, least_rays, 4e9));
             shoot_rays(run, emitters, rays,
-                       mix64(run.settings.seed + 0x9e3779b97f4a7c15ull * (direct.shots + 1)),
+                       mix64(run.settings.seed + 0x9e3779b97f4a7c15ull * (direct.shots + 1)), done,
                        [&](double) { return !run.listener.stopped(); });
             run.banks.take_totals(shot, direct.escaped);
             direct.rays += rays;

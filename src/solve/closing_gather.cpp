@@ -84,39 +84,40 @@ void take_means(const Run& run, double unit, PassResult& pass) {
 
 }  // namespace
 
-void closing_gather(const Run& run, TransferState& state, std::span<const std::uint32_t> dark,
-                    PassResult& pass) {
+void closing_gather(const Run& run, Group& group, std::span<const std::uint32_t> dark) {
     const Plan& plan = run.plan;
+    TransferState& state = group.state;
+    PassResult& pass = group.pass;
     if (plan.gathering == 0 || !pass.whole)
         return;
     Emission emission = state.emission;
     emission.quanta = 1;
     const double unit = quanta_per_exitance(run, emission, pass);
-    run.banks.clear(plan.threads);
+    if (group.done == 0)
+        run.banks.clear(plan.threads);
 
     // A line serves both its ends, whatever the direction of the pass.
     LineSweep sweep(run, state, Direction::bidirectional, unit);
     const BundleSettings lattice{mix64(run.settings.seed ^ gather_key), plan.gathering,
                                  run.settings.directions, plan.spacing};
     constexpr std::uint64_t at_once = 16;
-    std::uint64_t done = 0;
-    while (done < plan.gathering) {
-        const std::uint64_t count = std::min(at_once, plan.gathering - done);
+    while (group.done < plan.gathering) {
+        const std::uint64_t count = std::min(at_once, plan.gathering - group.done);
         load_exits(run, emission, pass, unit, state);
         for (std::uint32_t patch : dark)
             std::fill_n(&state.carried[patch * std::size_t(lanes(state.bands))], state.bands, 0);
-        sweep.bundles(lattice, done, static_cast<std::uint32_t>(count));
-        done += count;
+        sweep.bundles(lattice, group.done, static_cast<std::uint32_t>(count));
+        group.done += count;
         for (WorkerTotals& totals : run.banks.all_totals())
             pass.counts += std::exchange(totals.counts, {});
-        if (!run.listener.go_on(
-                "bundles",
-                static_cast<double>(plan.passing() + done) / static_cast<double>(plan.bundles),
-                pass.counts.lines))
+        if (!run.listener.go_on("bundles",
+                                static_cast<double>(plan.passing() + group.done) /
+                                    static_cast<double>(plan.bundles),
+                                pass.counts.lines))
             break;
     }
-    pass.bundles += done;
-    pass.whole = done == plan.gathering;
+    pass.bundles += group.done;
+    pass.whole = group.done == plan.gathering;
     state.carried = AlignedArray<std::int32_t>();
     for (WorkerTotals& totals : run.banks.all_totals())
         totals = {};

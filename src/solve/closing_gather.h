@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "solve/pass.h"
+#include "solve/group.h"
 #include "solve/run.h"
 
 namespace parallux {
@@ -15,8 +15,7 @@ namespace parallux {
 /// first shots brought is not gathered. Dividing by the lines that really left takes the noise of
 /// their number away, and the error of the pass is smoothed by one more bounce. Moves no energy:
 /// the balance remains the pass's. Patches that no line leaves keep what the pass found. The `dark`
-/// ones send nothing.
-void closing_gather(const Run& run, TransferState& state, std::span<const std::uint32_t> dark,
-                    PassResult& pass);
+/// ones send nothing. Goes on behind the bundles that the group has gathered.
+void closing_gather(const Run& run, Group& group, std::span<const std::uint32_t> dark);
 
 }  // namespace parallux

@@ -74,14 +74,14 @@ void settle(const Run& run, DirectLight& direct) {
     direct.shot = std::vector<std::int64_t>();
 }
 
-Emission emission_of(const Run& run, const DirectLight& direct) {
+Emission emission_of(const Patches& patches, const DirectLight& direct) {
     Emission emission;
     if (!direct.exitance.empty()) {
         emission.own = direct.exitance;
         return emission;
     }
     if (direct.own)
-        emission.own = run.patches.emission;
+        emission.own = patches.emission;
     emission.direct = direct.irradiance;
     return emission;
 }

@@ -38,6 +38,6 @@ std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_
 void settle(const Run& run, DirectLight& direct);
 
 /// What the patches send of their own in the pass; `direct` must be settled and outlive it.
-Emission emission_of(const Run& run, const DirectLight& direct);
+Emission emission_of(const Patches& patches, const DirectLight& direct);
 
 }  // namespace parallux

@@ -77,6 +77,7 @@ void end_pass(const Run& run, const DirectLight& direct, TransferState& state, P
                      for (std::size_t patch = begin; patch < end; ++patch)
                          finish(patch);
                  });
+    pass.leftover.reset();
 }
 
 }  // namespace parallux

@@ -94,6 +94,18 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
     total_.partial = total_.partial || !pass.whole || direct.done < 1;
 }
 
+bool Estimate::sound() const {
+    const std::size_t values = groups_ > 0 ? patches_.reflectance.size() : 0;
+    const std::size_t counts = groups_ > 0 ? patches_.count() : 0;
+    const Balance& e = total_.energy;
+    for (const auto* totals : {&e.emitted, &e.absorbed, &e.escaped, &e.unshot, &e.residual})
+        if (totals->size() != (groups_ > 0 ? patches_.bands : 0))
+            return false;
+    return irradiance_.size() == values && total_.crossings.size() == counts &&
+           spread_.size() == (groups_ > 1 ? values : 0) &&
+           (sketches_.size() == groups_ || (groups_ <= 1 && sketches_.empty()));
+}
+
 void Estimate::sketch(const std::vector<float>& irradiance, double lines, unsigned threads) {
     // Sums of fixed chunks, added up in their order: the same bits on any number of threads.
     constexpr std::size_t chunk = 1 << 12;

@@ -31,6 +31,17 @@ public:
     /// The next group was stopped before its end, and is left out.
     void stop() { total_.partial = true; }
 
+    /// All that it knows, to be written or read; sound() is false for what cannot be.
+    template <class Archive>
+    void fields(Archive& a) {
+        a(groups_), a(irradiance_), a(spread_), a(sketches_), a(total_.crossings);
+        fields_of(a, total_.energy);
+        fields_of(a, total_.counts);
+        a(total_.bundles), a(total_.first_shot_rays), a(total_.shots), a(total_.leaks);
+        a(total_.warnings);
+    }
+    bool sound() const;
+
     /// The mean of the groups: radiosity B = E + ρ H, and from two groups on the standard error of
     /// every patch and the relative RMS of all that do not emit, with its bound of 95 %. Gives its
     /// memory to the solution.

@@ -40,62 +40,74 @@ std::uint32_t next_batch(const Plan& plan, double lagging, std::uint64_t done, s
 
 }  // namespace
 
-PassResult global_pass(const Run& run, DirectLight& direct, TransferState& state) {
-    const Plan& plan = run.plan;
-    const bool bundles = run.settings.method == Method::bundles;
-    settle(run, direct);
-    state.emission = emission_of(run, direct);
+namespace {
+
+// All that a pass is before its first batch, which the caller settles.
+void begin_pass(const Run& run, Group& group) {
+    settle(run, group.direct);
+    TransferState& state = group.state;
+    state.emission = emission_of(run.patches, group.direct);
     state.watts_per_quantum = carried_quantum(run, state.emission);
     state.dither = static_cast<std::uint32_t>(mix64(run.settings.seed));
+    std::vector<double> planned;
+    for (std::int64_t quanta : group.direct.unshot)
+        planned.push_back(static_cast<double>(quanta) * run.plan.watts_per_quantum);
+    group.pass.leftover =
+        std::make_unique<Leftover>(run.patches, *run.regions, planned, run.plan.threads);
+}
+
+}  // namespace
+
+void global_pass(const Run& run, Group& group) {
+    const Plan& plan = run.plan;
+    TransferState& state = group.state;
+    PassResult& pass = group.pass;
+    const bool bundles = run.settings.method == Method::bundles;
+    const bool resumed = pass.batch > 0;
+    if (!resumed)
+        begin_pass(run, group);
     LineSweep sweep(run, state, run.settings.direction, emission_quanta(plan, state));
     // Light that goes from bundle to bundle must meet a direction again as often as if all were
     // independent: of a lattice that has each but once, a run of D bundles is off by some 1/D.
     const BundleSettings lattice{run.settings.seed, plan.passing(), run.settings.directions,
                                  plan.spacing, true};
-    PassResult result;
-    std::vector<double> planned;
-    for (std::int64_t quanta : direct.unshot)
-        planned.push_back(static_cast<double>(quanta) * plan.watts_per_quantum);
-    result.leftover.emplace(run.patches, *run.regions, planned, plan.threads);
-    sweep.keep(result.leftover->ways);
+    sweep.keep(pass.leftover->ways);
     const std::uint64_t emitting = plan.passing() - plan.closing;
     // What the next batch's exits carry is set by the merge before it, in one walk over the
     // patches: its size goes by the light that the merge before that has seen.
-    std::uint32_t batch = next_batch(plan, 0, 0, 1);
     auto merge_for = [&](std::uint32_t next) {
-        const bool emits = result.bundles < emitting;
+        pass.batch = next;
+        const bool emits = pass.bundles < emitting;
         merge(state, run.patches, run.banks.banks(), run.banks.all_totals(),
               {plan.cell, next, emits ? emission_quanta(plan, state) : 0}, plan.threads);
     };
-    merge_for(batch);
-    while (result.bundles < plan.passing()) {
+    if (!resumed)
+        merge_for(next_batch(plan, 0, 0, 1));
+    while (pass.bundles < plan.passing()) {
         // Emission ends before the lines do.
-        if (result.bundles == emitting)
+        if (pass.bundles >= emitting)
             sweep.darken_sky();
-        result.leftover->ways.keep_one_of(stride(plan, state, result.bundles));
+        pass.leftover->ways.keep_one_of(stride(plan, state, pass.bundles));
         if (bundles) {
-            sweep.bundles(lattice, result.bundles, batch);
+            sweep.bundles(lattice, pass.bundles, pass.batch);
         } else {
-            std::uint64_t first = result.bundles * plan.lines_a_unit;
-            std::uint64_t end = std::min(plan.lines, first + batch * plan.lines_a_unit);
+            std::uint64_t first = pass.bundles * plan.lines_a_unit;
+            std::uint64_t end = std::min(plan.lines, first + pass.batch * plan.lines_a_unit);
             sweep.lines(first, end - first);
         }
         for (WorkerTotals& totals : run.banks.all_totals())
-            result.counts += std::exchange(totals.counts, {});
-        const double behind = lag(state, result.bundles);
-        result.bundles += batch;
-        batch = next_batch(plan, behind, result.bundles, batch);
-        merge_for(batch);
+            pass.counts += std::exchange(totals.counts, {});
+        const double behind = lag(state, pass.bundles);
+        pass.bundles += pass.batch;
+        merge_for(next_batch(plan, behind, pass.bundles, pass.batch));
         if (!run.listener.go_on(
                 bundles ? "bundles" : "lines",
-                static_cast<double>(result.bundles) / static_cast<double>(plan.bundles),
-                result.counts.lines))
+                static_cast<double>(pass.bundles) / static_cast<double>(plan.bundles),
+                pass.counts.lines))
             break;
     }
-    result.done =
-        std::min(1.0, static_cast<double>(result.bundles) / static_cast<double>(emitting));
-    result.whole = result.bundles == plan.passing();
-    return result;
+    pass.done = std::min(1.0, static_cast<double>(pass.bundles) / static_cast<double>(emitting));
+    pass.whole = pass.bundles == plan.passing();
 }
 
 }  // namespace parallux

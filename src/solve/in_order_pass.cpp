@@ -8,7 +8,7 @@ PassResult in_order_pass(const Run& run, DirectLight& direct, TransferState& sta
     const bool lit = run.scene.sky.kind != Sky::Kind::dark;
     const std::uint64_t lines = run.plan.lines;
     settle(run, direct);
-    state.emission = emission_of(run, direct);
+    state.emission = emission_of(run.patches, direct);
     state.emission.quanta = emission_quanta(run.plan, state);
     run.banks.join(run.plan.threads);
     PassResult result;

@@ -43,6 +43,14 @@ public:
         return received > 0 || (fine && regions_.sizes[regions_.of[patch]] == 1);
     }
 
+    /// All that it knows, to be written or read; see Ways.
+    template <class Archive>
+    void fields(Archive& a) {
+        a(planned_);
+        ways.fields(a);
+    }
+    bool sound() const { return planned_.size() == patches_.bands && ways.sound(); }
+
     Ways ways;
 
 private:

@@ -109,60 +109,74 @@ double light_arrives(const RayScene& rays, const FarShadow& shadow, const Light&
     return sum / numbers;
 }
 
-void add_light_points(const Run& run, DirectLight& direct) {
+namespace {
+
+// A surface's cells, one after the other.
+void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, unsigned worker) {
     const Scene& scene = run.scene;
-    const Patches& patches = run.patches;
-    if (scene.lights.empty())
-        return;
-    std::uint32_t bands = patches.bands;
-    const FarShadow shadow(*run.rays, scene);
-    parallel_for(
-        run.plan.threads, scene.surfaces.size(), 16,
-        [&](std::size_t begin, std::size_t end, unsigned worker) {
-            WorkerTotals& totals = run.banks.totals(worker);
-            for (std::size_t s = begin; s < end; ++s) {
-                const Surface& surface = scene.surfaces[s];
-                const SurfaceGrid& grid = patches.grids[s];
-                glm::dvec3 front = surface_normal(scene, surface);
-                double cell_area =
-                    surface_area(scene, surface) / (static_cast<double>(grid.nu) * grid.nv);
-                bool triangle = surface.shape() == Shape::triangle;
-                for (std::uint32_t first : {grid.front, grid.back}) {
-                    if (first == none)
-                        continue;
-                    glm::dvec3 normal = first == grid.front ? front : -front;
-                    for_each_cell(surface.shape(), grid, [&](const Cell& cell) {
-                        double watts[max_bands] = {};
-                        for (int k = 0; k < points_a_side * points_a_side; ++k) {
-                            double a = (k % points_a_side + 0.5) / points_a_side;
-                            double b = (k / points_a_side + 0.5) / points_a_side;
-                            if (triangle && a + b > 1) {
-                                a = 1 - a;
-                                b = 1 - b;
-                            }
-                            glm::dvec3 point = surface_point(scene, surface, cell.u0 + a * cell.du,
-                                                             cell.v0 + b * cell.dv);
-                            const Place place{
-                                *run.rays, point, normal, static_cast<std::uint32_t>(s), k, shadow};
-                            for (const Light& light : scene.lights) {
-                                double flux = arrives(place, light) * cell_area /
-                                              (points_a_side * points_a_side);
-                                for (std::uint32_t band = 0; flux > 0 && band < bands; ++band)
-                                    watts[band] += flux * light.intensity[band];
-                            }
-                        }
-                        for (std::uint32_t band = 0; band < bands; ++band) {
-                            std::int64_t quanta =
-                                std::llrint(watts[band] / run.plan.watts_per_quantum);
-                            run.banks.receive(
-                                worker, (first + cell.index) * std::size_t(bands) + band, quanta);
-                            totals.sky[band] += quanta;
-                        }
-                    });
+    const std::uint32_t bands = run.patches.bands;
+    const Surface& surface = scene.surfaces[s];
+    const SurfaceGrid& grid = run.patches.grids[s];
+    const glm::dvec3 front = surface_normal(scene, surface);
+    const double cell_area =
+        surface_area(scene, surface) / (static_cast<double>(grid.nu) * grid.nv);
+    const bool triangle = surface.shape() == Shape::triangle;
+    for (std::uint32_t first : {grid.front, grid.back}) {
+        if (first == none)
+            continue;
+        const glm::dvec3 normal = first == grid.front ? front : -front;
+        for_each_cell(surface.shape(), grid, [&](const Cell& cell) {
+            double watts[max_bands] = {};
+            for (int k = 0; k < points_a_side * points_a_side; ++k) {
+                double a = (k % points_a_side + 0.5) / points_a_side;
+                double b = (k / points_a_side + 0.5) / points_a_side;
+                if (triangle && a + b > 1) {
+                    a = 1 - a;
+                    b = 1 - b;
+                }
+                const glm::dvec3 point =
+                    surface_point(scene, surface, cell.u0 + a * cell.du, cell.v0 + b * cell.dv);
+                const Place place{*run.rays, point, normal, static_cast<std::uint32_t>(s),
+                                  k,         shadow};
+                for (const Light& light : scene.lights) {
+                    const double flux =
+                        arrives(place, light) * cell_area / (points_a_side * points_a_side);
+                    for (std::uint32_t band = 0; flux > 0 && band < bands; ++band)
+                        watts[band] += flux * light.intensity[band];
                 }
             }
+            for (std::uint32_t band = 0; band < bands; ++band) {
+                const std::int64_t quanta = std::llrint(watts[band] / run.plan.watts_per_quantum);
+                run.banks.receive(worker, (first + cell.index) * std::size_t(bands) + band, quanta);
+                run.banks.totals(worker).sky[band] += quanta;
+            }
         });
+    }
+}
+
+}  // namespace
+
+void add_light_points(const Run& run, DirectLight& direct, std::uint64_t& done) {
+    if (run.scene.lights.empty())
+        return;
+    const FarShadow shadow(*run.rays, run.scene);
     direct.arrived = true;
+    // In slabs of about so many cells, so that the caller is heard now and then.
+    constexpr std::uint64_t slab = 1 << 17;
+    const std::size_t surfaces = run.scene.surfaces.size();
+    while (done < surfaces) {
+        std::uint64_t end = done, cells = 0;
+        for (; end < surfaces && cells < slab; ++end)
+            cells += std::uint64_t(run.patches.grids[end].nu) * run.patches.grids[end].nv;
+        parallel_for(run.plan.threads, end - done, 16,
+                     [&](std::size_t first, std::size_t last, unsigned worker) {
+                         for (std::size_t s = first; s < last; ++s)
+                             light_surface(run, shadow, done + s, worker);
+                     });
+        done = end;
+        run.listener.go_on("first shot", static_cast<double>(done) / static_cast<double>(surfaces),
+                           0);
+    }
     run.banks.take_totals(direct.emitted, direct.escaped);
 }
 

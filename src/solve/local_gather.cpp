@@ -4,46 +4,28 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
-#include "lines/periodic.h"
 #include "parallel.h"
 #include "random.h"
 #include "solve/emitters.h"
-#include "solve/plan_lines.h"
+#include "solve/group.h"
 #include "solve/shot_rays.h"
 
 namespace parallux {
 
-std::vector<std::uint32_t> numbers_of(const std::vector<SmallPatch>& small) {
-    std::vector<std::uint32_t> numbers;
-    for (const SmallPatch& one : small)
-        numbers.push_back(one.patch);
-    return numbers;
-}
-
 namespace {
 
 constexpr std::uint32_t paths = 64;
-constexpr double few_lines = 32;
-
-// W/m² of patch and band that an exit carries in the gather.
-double sent(const Run& run, const Emission& emission, const PassResult& pass, std::size_t k) {
-    return emission.of_exit(run.patches, k) +
-           static_cast<double>(run.patches.reflectance[k]) * pass.irradiance[k];
-}
 
 // What paths from small patches find.
 class LocalPaths {
 public:
     LocalPaths(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
                const PassResult& pass)
-        : run_(run), emission_(state.emission), pass_(pass), cells_(run.scene, run.patches, [&] {
-              std::vector<std::uint32_t> wanted;
-              for (const SmallPatch& one : small)
-                  wanted.push_back(one.patch);
-              return wanted;
-          }()) {
+        : run_(run),
+          emission_(state.emission),
+          pass_(pass),
+          cells_(run.scene, run.patches, numbers_of(small)) {
         emission_.quanta = 1;
     }
 
@@ -95,103 +77,40 @@ private:
 
 }  // namespace
 
-namespace {
-
-std::string few_lines_warning(const Run& run, std::uint32_t first, std::size_t count,
-                              std::size_t served) {
-    const std::uint32_t surface =
-        patch_places(run.scene, run.patches, first, first + 1).front().surface;
-    std::string text = std::to_string(count) +
-                       " patches (first: " + run.scene.objects[run.scene.surfaces[surface].object] +
-                       ") are so small that fewer than 32 lines of a group leave each; ";
-    if (served > 0)
-        text += (served == count
-                     ? "local rays serve them"
-                     : "local rays serve the " + std::to_string(served) + " that matter most");
-    else
-        text += "a smaller --line-spacing or more --bundles would serve them better";
-    return text;
-}
-
-}  // namespace
-
-std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state,
-                                      PassResult& pass) {
-    const Plan& plan = run.plan;
-    const Patches& patches = run.patches;
-    // Local rays know nothing of a scene's copies.
-    if (!run.rays || plan.gathering == 0 || !pass.whole || is_periodic(run.scene))
-        return {};
-    const double lines_a_bundle = pi * plan.sphere.radius * plan.sphere.radius / plan.cell;
-    const auto most =
-        static_cast<std::size_t>(3e-4 * lines_a_bundle * static_cast<double>(plan.bundles));
-    const double below = mean_area(patches) / 16;
-    const double exits_an_area = static_cast<double>(plan.gathering) / (2 * plan.cell);
-    Emission emission = state.emission;
-    emission.quanta = 1;
-    struct Found {
-        double weight;
-        std::uint32_t patch;
-    };
-    std::vector<Found> found;
-    double power = 0, all = 0, brightest = 0;
-    for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
-        const double area = patches.area[patch], exits = area * exits_an_area;
-        double square = 0;
-        for (std::uint32_t band = 0; band < patches.bands; ++band)
-            square +=
-                std::pow(sent(run, emission, pass, patch * std::size_t(patches.bands) + band), 2);
-        if (area < below && exits < few_lines) {
-            found.push_back({area * square / (exits + 1), patch});
-            brightest = std::max(brightest, square);
-        } else {
-            power += area * square;
-        }
-        all += area;
-    }
-    // Where all are as bright as others, lines do as well, and exactly so where light is uniform.
-    constexpr double bright = 4;
-    const bool serve = brightest * all > bright * bright * power;
-    if (!found.empty())
-        pass.warnings.push_back(few_lines_warning(run, found.front().patch, found.size(),
-                                                  serve ? std::min(most, found.size()) : 0));
-    if (!serve)
-        return {};
-    if (found.size() > most) {
-        std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(most),
-                         found.end(), [](const Found& a, const Found& b) {
-                             return a.weight != b.weight ? a.weight > b.weight : a.patch < b.patch;
-                         });
-        found.resize(most);
-    }
-    std::vector<SmallPatch> chosen;
-    for (const Found& one : found)
-        chosen.push_back({one.patch, {}});
-    std::sort(chosen.begin(), chosen.end(),
-              [](const SmallPatch& a, const SmallPatch& b) { return a.patch < b.patch; });
-    return chosen;
-}
-
-void gather_locally(const Run& run, const TransferState& state, const PassResult& pass,
-                    std::vector<SmallPatch>& small) {
+void gather_locally(const Run& run, Group& group) {
+    std::vector<SmallPatch>& small = group.small;
     if (small.empty())
         return;
-    const LocalPaths local(run, state, small, pass);
-    parallel_for(run.plan.threads, small.size(), 4,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     DenormalsOff guard;
-                     for (std::size_t k = begin; k < end; ++k) {
-                         Random random(run.settings.seed, stream::local_gather + small[k].patch);
-                         for (std::uint32_t path = 0; path < paths; ++path)
-                             local.add_path(k, random, small[k].irradiance);
-                         for (double& irradiance : small[k].irradiance)
-                             irradiance /= paths;
-                     }
-                 });
+    const LocalPaths local(run, group.state, small, group.pass);
+    auto gather = [&](SmallPatch& one, std::size_t k) {
+        Random random(run.settings.seed, stream::local_gather + one.patch);
+        for (std::uint32_t path = 0; path < paths; ++path)
+            local.add_path(k, random, one.irradiance);
+        for (double& irradiance : one.irradiance)
+            irradiance /= paths;
+    };
+    // In slabs, so that the caller is heard now and then.
+    constexpr std::uint64_t slab = 1 << 12;
+    bool going_on = true;
+    while (going_on && group.done < small.size()) {
+        const std::uint64_t count = std::min(slab, small.size() - group.done);
+        parallel_for(run.plan.threads, count, 4, [&](std::size_t begin, std::size_t end, unsigned) {
+            DenormalsOff guard;
+            for (std::size_t k = group.done + begin; k < group.done + end; ++k)
+                gather(small[k], k);
+        });
+        group.done += count;
+        going_on = run.listener.go_on(
+            "bundles",
+            static_cast<double>(run.plan.passing()) / static_cast<double>(run.plan.bundles),
+            group.pass.counts.lines);
+    }
+    small.resize(group.done);
 }
 
-void shoot_locally(const Run& run, const TransferState& state, const std::vector<SmallPatch>& small,
-                   PassResult& pass) {
+void shoot_locally(const Run& run, Group& group) {
+    const std::vector<SmallPatch>& small = group.small;
+    PassResult& pass = group.pass;
     if (small.empty() || !pass.whole)
         return;
     const Patches& patches = run.patches;
@@ -205,20 +124,27 @@ void shoot_locally(const Run& run, const TransferState& state, const std::vector
                 static_cast<float>(one.irradiance[band]);
     // What they send, to all others: what they send each other the paths have brought.
     const std::vector<std::uint32_t> numbers = numbers_of(small);
-    Emission emission = state.emission;
+    Emission emission = group.state.emission;
     emission.quanta = 1;
     const Emitters emitters = emitters_of(run.scene, patches, [&](std::size_t k) -> std::int64_t {
         const auto patch = static_cast<std::uint32_t>(k / bands);
         if (!std::binary_search(numbers.begin(), numbers.end(), patch))
             return 0;
-        return std::llrint(patches.area[patch] * sent(run, emission, pass, k) /
+        return std::llrint(patches.area[patch] * sent_by_exit(run, emission, pass, k) /
                            run.plan.watts_per_quantum);
     });
     if (emitters.pieces.empty())
         return;
-    run.banks.clear(run.plan.threads);
-    shoot_rays(run, emitters, std::uint64_t(paths) * small.size(),
-               mix64(run.settings.seed ^ stream::local_gather), [](double) { return true; });
+    if (group.done == 0)
+        run.banks.clear(run.plan.threads);
+    const double done =
+        shoot_rays(run, emitters, std::uint64_t(paths) * small.size(),
+                   mix64(run.settings.seed ^ stream::local_gather), group.done,
+                   [&](double) { return run.listener.go_on("bundles", 1, pass.counts.lines); });
+    if (done < 1) {
+        run.banks.scale(1 / done);
+        pass.whole = false;
+    }
     for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
         if (std::binary_search(numbers.begin(), numbers.end(), patch))
             continue;

@@ -9,6 +9,7 @@
 #include "parallel.h"
 #include "parallux/error.h"
 #include "reference/matrix.h"
+#include "solve/checkpoint.h"
 #include "solve/emitters.h"
 #include "solve/keeping.h"
 #include "solve/plan_lines.h"
@@ -30,6 +31,7 @@ std::uint64_t machine_memory() {
 // How many groups there will be, and how direct light will be found.
 Plan planned(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
     Plan plan;
+    plan.sphere = line_sphere(scene, settings.sphere_radius);
     plan_lines(patches, settings, plan);
     SolveSettings shots = settings;
     if (is_periodic(scene))
@@ -66,6 +68,10 @@ struct Footprint {
     // Mean and spread of the groups before.
     std::uint64_t groups() const {
         return plan.groups > 1 || settings.target_error > 0 ? count * (bands * 8 + 8) : 0;
+    }
+    // A checkpoint lies in memory while it is written, or read.
+    std::uint64_t checkpoint() const {
+        return settings.checkpoints.any() ? checkpoint_bytes(count, bands) : 0;
     }
     // All cells, and what each source sees of them, from the beginning to the end.
     std::uint64_t views() const {
@@ -108,7 +114,7 @@ struct Footprint {
 std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
                                const SolveSettings& settings) {
     const Footprint footprint{scene, patches, settings};
-    return footprint.loaded() +
+    return footprint.loaded() + footprint.checkpoint() +
            std::max({footprint.first_shot(), footprint.pass(), footprint.gather()});
 }
 

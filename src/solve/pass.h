@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,14 +13,15 @@ namespace parallux {
 
 /// What a pass did, beside the energy that it moved in the state.
 struct PassResult {
-    std::optional<Leftover> leftover;  ///< what received energy is multiplied by; absent: by
-    double received = 1;               ///< this
+    std::unique_ptr<Leftover> leftover;  ///< what received energy is multiplied by; absent: by
+    double received = 1;                 ///< this
     std::vector<double> ambient;    ///< irradiance that unshot energy stands for, a band; empty: 0
     Balance balance;                ///< set by end_pass(), as are
     std::vector<float> irradiance;  ///< beside direct light, patch · bands + band
     std::vector<std::uint64_t> crossings;  ///< lines that left each patch
     LineCounts counts;
     std::uint64_t bundles = 0;  ///< done of those planned
+    std::uint32_t batch = 0;    ///< of those, the next to be done at once; 0: none is settled yet
     double done = 1;            ///< share of the planned emission that was sent
     bool whole = true;          ///< all that was planned is done
     std::vector<std::string> warnings;

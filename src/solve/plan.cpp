@@ -47,13 +47,15 @@ void check_periodic(const Scene& scene, const SolveSettings& settings) {
 
 }  // namespace
 
-Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings,
+               const Trial& trial) {
     check(settings);
     const bool periodic = is_periodic(scene);
     if (periodic)
         check_periodic(scene, settings);
     check_memory(scene, patches, settings);
     Plan plan;
+    plan.trial = trial;
     plan.threads = thread_count(settings.threads);
     plan.bank_bytes = bank_limit(settings);
     plan.sphere = line_sphere(scene, settings.sphere_radius);

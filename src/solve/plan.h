@@ -11,13 +11,20 @@ namespace parallux {
 /// Rounds of a run to a stated error, at most.
 inline constexpr std::uint32_t most_rounds = 16;
 
-/// The numbers of a run, all settled before it begins.
+/// What a few rays from the sources tell of direct light before a run.
+struct Trial {
+    bool known = false;
+    double variance = 0;  ///< its relative quadratic error, times rays
+    double lit_area = 0;  ///< area of a patch that sends it on, m²: mean, by power; 0: none known
+};
+
+/// The numbers of a run, all settled before its first group.
 struct Plan {
     unsigned threads = 1;
     FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
     std::uint64_t first_shot_rays = 0;      ///< of a group
-    bool try_rays = false;                  ///< how many is for a trial to say,
-    double ray_variance = 0;                ///< which found so much; see set_rays()
+    bool try_rays = false;                  ///< how many is for a trial to say
+    Trial trial;
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have
     double shot_effort = 1;          ///< of exact shots past what hides: samples, by its square
     std::uint32_t groups = 1;        ///< independent runs that the result is the mean of
@@ -42,8 +49,10 @@ struct Plan {
     std::uint64_t passing() const { return bundles - gathering; }
 };
 
-/// Settles every number from the scene, its patches and the settings. Throws Fault::usage for
-/// settings that contradict each other, Fault::memory when the run needs more than allowed.
-Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings);
+/// Settles every number from the scene, its patches, the settings and what a trial has told. Throws
+/// Fault::usage for settings that contradict each other, Fault::memory when the run needs more than
+/// allowed.
+Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings,
+               const Trial& trial = {});
 
 }  // namespace parallux

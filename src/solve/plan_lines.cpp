@@ -64,17 +64,28 @@ bool in_batches(const SolveSettings& settings) {
            (settings.method == Method::lines && settings.batch > 0);
 }
 
-// Lines over a mean patch that suit so many bundles a group. The error of directions falls about
+// The area of a patch by which lines are spaced: of those that send the light on, where that is
+// known and not far below the mean.
+double typical_area(const Patches& patches, const Plan& plan) {
+    const double mean = mean_area(patches);
+    return plan.trial.lit_area > 0 ? std::clamp(plan.trial.lit_area, mean / 4, mean) : mean;
+}
+
+// Lines over a typical patch that suit so many bundles a group. The error of directions falls about
 // as the square of their number, that of the lines' places as the number of lines: the finer the
-// directions, the finer the lines. Where a bundle's own work (its frame, its surfaces) takes as
-// long as its lines, a line more costs little.
+// directions, the finer the lines. Lines are placed badly where what they meet changes between
+// them: on patches with an outline of a surface over them, which in meshes of small surfaces are
+// all, and there fewer than the usual number never pay. Elsewhere they do while a bundle's own work
+// (its frame, its surfaces) takes as long as its lines.
 double suitable_lines(const Patches& patches, const Plan& plan, double bundles) {
     constexpr double usual = 4, bundles_of_usual = 1500, most = 64;
     const double disc = pi * plan.sphere.radius * plan.sphere.radius;
-    const double own_work = 3000 + static_cast<double>(patches.grids.size());  // in lines
-    const double cheap = std::min(usual, own_work * mean_area(patches) / disc);
+    const double surfaces = static_cast<double>(patches.grids.size());
+    const double outlined =
+        std::min(1.0, 4 * std::sqrt(surfaces / static_cast<double>(patches.count())));
+    const double cheap = (3000 + surfaces) * typical_area(patches, plan) / disc;
     const double fine = usual * std::pow(bundles / bundles_of_usual, 2.0 / 3);
-    return std::clamp(std::max(fine, cheap), 1.0, most);
+    return std::clamp(std::max({fine, usual * outlined, std::min(usual, cheap)}), 1.0, most);
 }
 
 // The spacing, and with it the bundles that as many lines make as were asked for.
@@ -89,19 +100,19 @@ void plan_spacing(const Patches& patches, const SolveSettings& settings, Plan& p
         return settings.target_error > 0 ? 2.0 * bundles_for_error : 4096.0;
     };
     const bool fixed = settings.line_spacing > 0 || settings.lines_per_patch > 0;
+    const double area = fixed ? mean_area(patches) : typical_area(patches, plan);
     double lines = settings.lines_per_patch > 0 ? settings.lines_per_patch : 4;
     // Of lines in all, fewer bundles are to have more each: three steps settle it well enough.
     const bool chosen = !fixed && settings.method == Method::bundles;
     for (int step = 0; step < (chosen ? 3 : 1); ++step) {
-        plan.spacing = settings.line_spacing > 0 ? settings.line_spacing
-                                                 : std::sqrt(mean_area(patches) / lines);
+        plan.spacing = settings.line_spacing > 0 ? settings.line_spacing : std::sqrt(area / lines);
         plan.cell = plan.spacing * plan.spacing;
         const auto bundles = static_cast<std::uint64_t>(bundles_of());
         lines = suitable_lines(patches, plan,
                                static_cast<double>(bundles) / groups_of(settings, bundles));
     }
     if (chosen) {
-        plan.spacing = std::sqrt(mean_area(patches) / lines);
+        plan.spacing = std::sqrt(area / lines);
         plan.cell = plan.spacing * plan.spacing;
     }
     plan.bundles = static_cast<std::uint64_t>(bundles_of());
@@ -135,6 +146,10 @@ double mean_area(const Patches& patches) {
     for (double area : patches.area)
         total += area;
     return total / static_cast<double>(patches.count());
+}
+
+double too_small(const Patches& patches) {
+    return mean_area(patches) / 16;
 }
 
 double mean_reflectance(const Patches& patches) {

@@ -16,6 +16,9 @@ void plan_lines(const Patches& patches, const SolveSettings& settings, Plan& pla
 /// Area of a patch in the mean, m².
 double mean_area(const Patches& patches);
 
+/// The area below which patches are for local rays to serve, rather than lines, m².
+double too_small(const Patches& patches);
+
 /// Mean by area, over all bands.
 double mean_reflectance(const Patches& patches);
 

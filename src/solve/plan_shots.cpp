@@ -56,6 +56,19 @@ bool is_exact_cheap(const Scene& scene, const Patches& patches, const Plan& plan
     return pairs * rays_a_pair * plan.groups <= worth * static_cast<double>(rays);
 }
 
+// The rays of a group's first shot, so that direct light and lines take the time that lowers the
+// error most. Lines leave a patch with about the variance of independent ones, for what else they
+// do; a ray takes as long as eight exits. The error by time is least where
+//     d/dr (v / r + n / e) (8 r + e) = 0,  r = e √(v / 8 n).
+std::uint64_t suitable_rays(const Patches& patches, const Plan& plan) {
+    constexpr double exits_a_ray = 8, fewest = 50;
+    const double count = static_cast<double>(patches.count());
+    const double rays =
+        all_exits(patches, plan) * std::sqrt(plan.trial.variance / (exits_a_ray * count));
+    return static_cast<std::uint64_t>(std::clamp(rays, fewest * count, most_rays)) / plan.groups +
+           1;
+}
+
 }  // namespace
 
 bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
@@ -73,7 +86,8 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
     if (plan.first_shot == FirstShot::automatic) {
         if (local || settings.method == Method::matrix)
             plan.first_shot = FirstShot::off;
-        else if (settings.first_shot_rays == 0 && is_exact_cheap(scene, patches, plan, rays))
+        else if (!plan.trial.known && settings.first_shot_rays == 0 &&
+                 is_exact_cheap(scene, patches, plan, rays))
             plan.first_shot = FirstShot::exact;
         else
             plan.first_shot = FirstShot::rays;
@@ -86,23 +100,13 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
         plan.first_shot_rays = rays;
     plan.try_rays = plan.first_shot_rays > 0 && settings.method == Method::bundles &&
                     settings.first_shot_rays == 0;
+    if (plan.try_rays && plan.trial.known)
+        plan.first_shot_rays = suitable_rays(patches, plan);
     // Shots differ from group to group where there is anything at random in them.
     plan.shoot_each =
         plan.first_shot_rays > 0 || plan.first_shot == FirstShot::exact || settings.shots > 0;
     if (local)
         plan_local_rays(patches, settings, plan);
-}
-
-void set_rays(const Patches& patches, double ray_variance, Plan& plan) {
-    // Lines leave a patch with about the variance of independent ones, for what else they do; a ray
-    // takes as long as eight exits. The error by time is least where
-    //     d/dr (v / r + n / e) (8 r + e) = 0,  r = e √(v / 8 n).
-    constexpr double exits_a_ray = 8, fewest = 50;
-    const double count = static_cast<double>(patches.count());
-    const double rays = all_exits(patches, plan) * std::sqrt(ray_variance / (exits_a_ray * count));
-    plan.ray_variance = ray_variance;
-    plan.first_shot_rays =
-        static_cast<std::uint64_t>(std::clamp(rays, fewest * count, most_rays)) / plan.groups + 1;
 }
 
 }  // namespace parallux

@@ -1,6 +1,6 @@
 #include "solve/rounds.h"
-#include "solve/plan_shots.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace parallux {
@@ -42,17 +42,15 @@ Plan Rounds::planned(const Round& round, const Plan& last) const {
         static_cast<double>(own.bundles) / static_cast<double>(first_.groups * first_.bundles);
     own.first_shot_rays = static_cast<std::uint64_t>(
         std::llround(growth * static_cast<double>(settings_.first_shot_rays)));
-    Plan plan = make_plan(scene_, patches_, own);
+    Plan plan = make_plan(scene_, patches_, own, last.trial);
     plan.groups = round.groups;
-    if (last.try_rays)
-        set_rays(patches_, last.ray_variance, plan);
     return plan;
 }
 
 bool Rounds::another(const Estimate& estimate, const Seconds& seconds, Listener& listener,
                      Plan& plan) {
     const double target = settings_.target_error;
-    if (target <= 0 || ++done_ == most_rounds)
+    if (target <= 0 || further_.size() + 1 == most_rounds)
         return false;
     Foresight known = estimate.foresight();
     if (settings_.directions == DirectionSet::random)
@@ -60,8 +58,29 @@ bool Rounds::another(const Estimate& estimate, const Seconds& seconds, Listener&
     if (known.bound() <= target)
         return false;
     listener.tell(forecast_of(known, target, estimate, seconds, first_.groups, plan));
-    plan = planned(missing_round(known, target, first_.groups, most_growth), plan);
+    further_.push_back(missing_round(known, target, first_.groups, most_growth));
+    plan = planned(further_.back(), plan);
     return true;
+}
+
+std::uint32_t Rounds::groups_before() const {
+    std::uint32_t groups = further_.empty() ? 0 : first_.groups;
+    for (std::size_t round = 0; round + 1 < further_.size(); ++round)
+        groups += further_[round].groups;
+    return groups;
+}
+
+void Rounds::replay(Plan& plan) const {
+    for (const Round& round : further_)
+        plan = planned(round, plan);
+}
+
+bool Rounds::sound() const {
+    return further_.size() < most_rounds &&
+           std::all_of(further_.begin(), further_.end(), [&](const Round& round) {
+               return round.groups >= 1 && round.groups <= first_.groups && round.length > 0 &&
+                      round.length * round.groups <= 1e6;
+           });
 }
 
 }  // namespace parallux

@@ -19,6 +19,18 @@ public:
     /// of the same quanta as those before, whose rays grow with their bundles.
     bool another(const Estimate& estimate, const Seconds& seconds, Listener& listener, Plan& plan);
 
+    /// Groups of the rounds before this one.
+    std::uint32_t groups_before() const;
+    /// What another run needs to set its plan as this one has: the rounds, to be read or written,
+    /// and from then on the plan of the first round becomes that of the last.
+    template <class Archive>
+    void fields(Archive& a) {
+        a(further_);
+    }
+    void replay(Plan& plan) const;
+    /// False for rounds that no run comes to.
+    bool sound() const;
+
 private:
     Plan planned(const Round& round, const Plan& last) const;
 
@@ -26,7 +38,7 @@ private:
     const Patches& patches_;
     const SolveSettings& settings_;
     const Plan first_;
-    std::uint32_t done_ = 0;
+    std::vector<Round> further_;  // after the first
 };
 
 }  // namespace parallux

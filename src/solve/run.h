@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cstring>
+#include <functional>
+#include <utility>
 
 #include "lines/ray_scene.h"
 #include "parallux/solve.h"
@@ -26,7 +28,8 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Asks the caller whether to go on, and minds the time limit.
+/// Asks the caller whether to go on, and minds the time limit. It is asked where the run's state is
+/// whole, between batches, and has it kept.
 class Listener {
 public:
     Listener(const ProgressCallback& callback, double time_limit)
@@ -38,6 +41,9 @@ public:
         to_ = to;
         lines_before_ = lines_;
     }
+
+    /// To be called whenever the run is asked; `last`: it is told to stop. Not after that.
+    void keep_by(std::function<void(bool last)> keep) { keep_ = std::move(keep); }
 
     /// `done`: share of the stage, `lines` or rays so far in it. Once false, always false.
     bool go_on(const char* stage, double done, std::uint64_t lines) {
@@ -54,18 +60,22 @@ public:
             stage_watch_ = last_;
         }
         last_ = Watch();
+        const bool was_stopped = stopped_;
         if (callback_ && !callback_({stage, done, lines, stage_watch_.seconds(), nullptr}))
             stopped_ = true;
-        if (time_limit_ > 0 && total_.seconds() > time_limit_)
+        if (to_stop_ || (time_limit_ > 0 && total_.seconds() > time_limit_))
             stopped_ = true;
+        if (keep_ && !was_stopped)
+            keep_(stopped_);
         return !stopped_;
     }
 
-    /// A round is over, and what it tells of those to come is known.
+    /// A round is over, and what it tells of those to come is known. To be stopped here counts when
+    /// it is asked next.
     void tell(Forecast forecast) {
         forecast.seconds_so_far = total_.seconds();
         if (callback_ && !callback_({stage_, to_, lines_, stage_watch_.seconds(), &forecast}))
-            stopped_ = true;
+            to_stop_ = true;
     }
 
     bool stopped() const { return stopped_; }
@@ -77,7 +87,8 @@ private:
     Watch total_, stage_watch_, last_;
     double from_ = 0, to_ = 1;
     std::uint64_t lines_ = 0, lines_before_ = 0;
-    bool stopped_ = false;
+    bool stopped_ = false, to_stop_ = false;
+    std::function<void(bool last)> keep_;
 };
 
 class ExactShot;

@@ -31,7 +31,7 @@ struct ExactShot::Chunk {
 };
 
 ExactShot::ExactShot(const Scene& scene, const Patches& patches, const RayScene& rays, Cells cells,
-                     const Emitters& emitters, unsigned threads)
+                     const Emitters& emitters, unsigned threads, const std::function<bool()>& go_on)
     : scene_(scene),
       patches_(patches),
       rays_(rays),
@@ -41,8 +41,11 @@ ExactShot::ExactShot(const Scene& scene, const Patches& patches, const RayScene&
     if (scene.surfaces.size() <= few_surfaces)
         for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s)
             surfaces_.push_back(whole_polygon(scene, s, false));
-    for (std::size_t source = 0; source < sources_.size(); ++source)
-        views_.push_back(view_of(source));
+    bool going_on = true;
+    while (going_on && views_.size() < sources_.size()) {
+        views_.push_back(view_of(views_.size()));
+        going_on = go_on();
+    }
 }
 
 ExactShot::View ExactShot::view_of(std::size_t source) {
@@ -119,10 +122,24 @@ void ExactShot::look(std::size_t source, std::size_t begin, std::size_t end, Chu
     }
 }
 
-void ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
-                      std::vector<std::int64_t>& escaped) const {
+// Of the first so many.
+double ExactShot::power_share(std::size_t sources) const {
+    double sent = 0, all = 0;
+    for (std::size_t source = 0; source < sources_.size(); ++source)
+        for (double power : sources_[source].power) {
+            sent += source < sources ? power : 0;
+            all += power;
+        }
+    return sources < sources_.size() && all > 0 ? sent / all : 1;
+}
+
+double ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
+                        std::vector<std::int64_t>& escaped, std::uint64_t& done,
+                        const std::function<bool(double)>& go_on) const {
     const std::uint32_t bands = patches_.bands;
-    for (std::size_t source = 0; source < sources_.size(); ++source) {
+    bool going_on = true;
+    while (going_on && done < views_.size()) {
+        const std::size_t source = done;
         const Source& from = sources_[source];
         const View& view = views_[source];
         const std::vector<double> found =
@@ -156,7 +173,9 @@ void ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
             emitted[band] += power;
             escaped[band] += power - before[band];
         }
+        going_on = go_on(static_cast<double>(++done) / static_cast<double>(views_.size()));
     }
+    return power_share(done);
 }
 
 // Of the pairs that may be hidden, as this shot finds them.

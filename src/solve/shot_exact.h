@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -30,15 +31,19 @@ public:
 
     /// Sorts out which cells see which sources, and how many points or rays each pair that may be
     /// hidden will take. Keeps the references. O(sources · cells), in parallel: 0.5 to 5 µs a pair
-    /// that faces each other.
+    /// that faces each other. `go_on` is asked after each source; where it says false, the others
+    /// are left out of all shots.
     ExactShot(const Scene& scene, const Patches& patches, const RayScene& rays, Cells cells,
-              const Emitters& emitters, unsigned threads);
+              const Emitters& emitters, unsigned threads, const std::function<bool()>& go_on);
 
     /// Sends all power into the banks, and adds to the totals of what was emitted and escaped; all
     /// that is emitted is received or escapes, to the last quantum. In a scene that lets nothing
-    /// out, what was found at random is scaled so that all is received.
-    void shoot(const Run& run, std::vector<std::int64_t>& emitted,
-               std::vector<std::int64_t>& escaped) const;
+    /// out, what was found at random is scaled so that all is received. Begins behind the first
+    /// `done` sources, which counts on; `go_on(share)` is asked after each, false stops. Returns
+    /// the share of the power that was sent.
+    double shoot(const Run& run, std::vector<std::int64_t>& emitted,
+                 std::vector<std::int64_t>& escaped, std::uint64_t& done,
+                 const std::function<bool(double)>& go_on) const;
 
 private:
     // A source and a cell with something between them.
@@ -67,6 +72,7 @@ private:
     void look(std::size_t source, std::size_t begin, std::size_t end, Chunk& chunk) const;
     std::vector<double> factors_of(std::size_t source, std::uint64_t seed, double effort) const;
     bool sees_only_patches(const Source& source) const;
+    double power_share(std::size_t sources) const;
 
     const Scene& scene_;
     const Patches& patches_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "parallel.h"
+#include "random.h"
 #include "solve/sobol.h"
 
 namespace parallux {
@@ -63,12 +64,12 @@ RayQuanta ray_quanta(const Emitters& emitters, std::uint64_t rays) {
 }  // namespace
 
 double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, std::uint64_t key,
-                  const std::function<bool(double)>& go_on) {
+                  std::uint64_t& done, const std::function<bool(double)>& go_on) {
     const Sobol sobol(key);
     const RayQuanta quanta = ray_quanta(emitters, rays);
     const std::uint32_t bands = emitters.bands;
-    // The normal of the surface that was last shot from: rays choose among patches, which most
-    // often lie on few surfaces.
+    // The normal of the surface that was last shot from: neighbours among the rays most often have
+    // it in common.
     struct Last {
         const Emitter* emitter = nullptr;
         glm::dvec3 normal{0};
@@ -79,13 +80,14 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
             last = {&emitter, emitter_normal(run.scene, emitter)};
         return last.normal;
     };
-    auto shoot = [&](std::uint64_t ray, unsigned worker, Last& last) {
+    // `at`: the share of the power that lies before the place the ray leaves from.
+    auto shoot = [&](std::uint64_t ray, double at, unsigned worker, Last& last) {
         std::array<double, Sobol::dimensions> p = sobol.point(static_cast<std::uint32_t>(ray));
-        std::size_t piece = emitters.choose(p[0]);
+        std::size_t piece = emitters.choose(at);
         const Emitter& emitter = emitters.pieces[piece];
         SurfaceHit hit =
-            run.rays->closest(point_on(run.scene, emitter, p[1], p[2]),
-                              cosine_direction(normal_of(emitter, last), p[3], p[4]),
+            run.rays->closest(point_on(run.scene, emitter, p[0], p[1]),
+                              cosine_direction(normal_of(emitter, last), p[2], p[3]),
                               std::numeric_limits<double>::infinity(), emitter.surface);
         std::uint32_t patch = patch_of(run.scene, run.patches, hit);
         // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
@@ -101,17 +103,20 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
         }
     };
 
-    // In slabs, so that the caller is heard now and then.
+    // In slabs, so that the caller is heard now and then. The rays of a slab step through the power
+    // evenly, so that neighbours leave the same emitter, with a run of the sequence each.
     constexpr std::uint64_t slab = 1 << 18;
-    std::uint64_t done = 0;
     while (done < rays) {
-        std::uint64_t count = std::min(slab, rays - done);
+        const std::uint64_t count = std::min(slab, rays - done);
+        const double step = 1 / static_cast<double>(count);
+        const double offset = Random(key, stream::ray_steps + done / slab).uniform();
         parallel_for(run.plan.threads, count, 2048,
                      [&](std::size_t begin, std::size_t end, unsigned worker) {
                          DenormalsOff guard;
                          Last last;
                          for (std::size_t k = begin; k < end; ++k)
-                             shoot(done + k, worker, last);
+                             shoot(done + k, (static_cast<double>(k) + offset) * step, worker,
+                                   last);
                      });
         done += count;
         if (!go_on(static_cast<double>(done) / static_cast<double>(rays)))

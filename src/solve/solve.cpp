@@ -7,6 +7,7 @@
 #include "reference/matrix.h"
 #include "reference/particles.h"
 #include "reference/progressive.h"
+#include "solve/checkpoint.h"
 #include "solve/closing_gather.h"
 #include "solve/end_pass.h"
 #include "solve/estimate.h"
@@ -28,49 +29,66 @@ namespace parallux {
 namespace {
 
 // Carries the unshot power between the patches, in the way that was chosen.
-PassResult carry(const Run& run, DirectLight& direct, TransferState& state) {
+void carry(const Run& run, Group& group) {
     switch (run.settings.method) {
         case Method::lines:
-            if (run.plan.batch == 0)
-                return in_order_pass(run, direct, state);
-            break;
+            if (run.plan.batch > 0)
+                break;
+            group.pass = in_order_pass(run, group.direct, group.state);
+            return;
         case Method::progressive:
-            return progressive_pass(run, direct);
+            group.pass = progressive_pass(run, group.direct);
+            return;
         case Method::particles:
-            return particle_pass(run, direct, state);
+            group.pass = particle_pass(run, group.direct, group.state);
+            return;
         case Method::matrix:
-            return matrix_pass(run, direct, state);
+            group.pass = matrix_pass(run, group.direct, group.state);
+            return;
         case Method::bundles:
             break;
     }
-    return global_pass(run, direct, state);
+    global_pass(run, group);
 }
 
-// One group: first shot, pass and gather under a seed of its own, into the estimate.
-void run_group(const Run& run, DirectLight& direct, Estimate& estimate, Seconds& seconds) {
+// One group: first shot, pass and gather under a seed of its own, into the estimate. A group that
+// is taken up again goes on with the stage it is in.
+void run_group(const Run& run, Group& group, Estimate& estimate, Seconds& seconds) {
     // Shoot the light of the sources locally.
     Watch watch;
-    if (estimate.groups() == 0 || run.plan.shoot_each)
-        direct = first_shot(run);
+    if (group.stage < Stage::pass) {
+        first_shot(run, group);
+        group.enter(Stage::pass);
+    }
     seconds.first_shot += watch.lap();
 
     // Send what is left unshot along global lines, or by a reference method.
-    const double loops_before = seconds_in_loops();
-    TransferState state = dark_state(run.patches, run.plan.watts_per_quantum);
-    PassResult pass = carry(run, direct, state);
-    end_pass(run, direct, state, pass);
-    const double passed = watch.lap();
-    seconds.global += passed;
-    seconds.serial += passed - (seconds_in_loops() - loops_before);
+    if (group.stage == Stage::pass) {
+        const double loops_before = seconds_in_loops();
+        if (group.state.bands == 0)
+            group.state = dark_state(run.patches, run.plan.watts_per_quantum);
+        carry(run, group);
+        end_pass(run, group.direct, group.state, group.pass);
+        group.small = small_patches(run, group.state, group.pass);
+        group.enter(Stage::local_paths);
+        const double passed = watch.lap();
+        seconds.global += passed;
+        seconds.serial += passed - (seconds_in_loops() - loops_before);
+    }
 
     // Gather along fresh lines what all patches send by then, and along local rays where patches
     // are too small for lines.
-    std::vector<SmallPatch> small = small_patches(run, state, pass);
-    gather_locally(run, state, pass, small);
-    closing_gather(run, state, numbers_of(small), pass);
-    shoot_locally(run, state, small, pass);
-    if (estimate.groups() == 0 || pass.whole)
-        estimate.add(run, direct, pass);
+    if (group.stage == Stage::local_paths) {
+        gather_locally(run, group);
+        group.enter(Stage::gather);
+    }
+    if (group.stage == Stage::gather) {
+        closing_gather(run, group, numbers_of(group.small));
+        group.enter(Stage::local_rays);
+    }
+    shoot_locally(run, group);
+    if (estimate.groups() == 0 || group.pass.whole)
+        estimate.add(run, group.direct, group.pass);
     run.banks.clear(run.plan.threads);
     seconds.gather += watch.lap();
 }
@@ -89,30 +107,43 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
     const Regions regions = make_regions(scene, patches, plan.keeping.regions, plan.keeping.groups);
-    Team team(plan.threads);
-    DirectLight direct;
+    Group group;
     Estimate estimate(patches);
     Seconds seconds;
     Watch watch;
-    if (plan.try_rays && rays)
-        try_rays(scene, patches, settings, *rays, banks, listener, plan);
-    const std::unique_ptr<ExactShot> exact = prepare_exact(scene, patches, rays.get(), plan);
-    seconds.first_shot += watch.lap();
+
+    // Take up a run that was interrupted, and have this one kept.
+    Checkpoint checkpoint(scene, patches, settings, regions,
+                          {plan, rounds, estimate, group, seconds, banks});
+    checkpoint.resume();
+    listener.keep_by([&](bool last) { checkpoint.keep(last); });
+    Team team(plan.threads);
     SolveSettings own = settings;
+    Run run{scene, patches, own, plan, rays.get(), banks, listener, nullptr, &regions};
+    if (group.stage == Stage::trial) {
+        if (plan.try_rays && rays)
+            plan = make_plan(scene, patches, settings, try_rays(run, group.done));
+        group.begin(true);
+    }
+    const std::unique_ptr<ExactShot> exact =
+        prepare_exact(scene, patches, rays.get(), plan, listener);
+    run.exact = exact.get();
+    seconds.first_shot += watch.lap();
     for (;;) {
-        // Run groups of their own seeds, each a whole solution.
-        const std::uint64_t before = estimate.bundles();
-        const auto end = static_cast<double>(before + plan.groups * plan.bundles);
-        for (std::uint32_t group = 0; group < plan.groups && !listener.stopped(); ++group) {
+        // Run groups of their own seeds, each a whole solution; one is begun in any case.
+        const std::uint32_t last = rounds.groups_before() + plan.groups;
+        const std::uint64_t end = estimate.bundles() + (last - estimate.groups()) * plan.bundles;
+        while (estimate.groups() < last && (estimate.groups() == 0 || !listener.stopped())) {
             showing.between_groups(estimate, plan, seconds);
             own.seed = group_seed(settings.seed, estimate.groups());
-            const auto from = static_cast<double>(before + group * plan.bundles);
-            listener.begin_part(from / end, (from + static_cast<double>(plan.bundles)) / end);
-            run_group(
-                {scene, patches, own, plan, rays.get(), banks, listener, exact.get(), &regions},
-                direct, estimate, seconds);
+            const auto from = static_cast<double>(estimate.bundles());
+            listener.begin_part(
+                from / static_cast<double>(end),
+                (from + static_cast<double>(plan.bundles)) / static_cast<double>(end));
+            run_group(run, group, estimate, seconds);
+            group.begin(plan.shoot_each);
         }
-        if (estimate.bundles() < before + plan.groups * plan.bundles) {
+        if (estimate.bundles() < end) {
             estimate.stop();
             break;
         }
@@ -120,6 +151,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
         if (!rounds.another(estimate, seconds, listener, plan))
             break;
     }
+    checkpoint.finish();
 
     // The groups' mean is the result, their spread its error.
     watch.lap();

@@ -39,6 +39,24 @@ void Ways::keep(const TilePairs& pairs, std::uint64_t salt, unsigned worker) {
     }
 }
 
+void Ways::collect() {
+    for (std::size_t worker = 1; worker < kept_.size(); ++worker) {
+        Kept moved = std::exchange(kept_[worker], {});
+        kept_[0].pairs.insert(kept_[0].pairs.end(), moved.pairs.begin(), moved.pairs.end());
+        kept_[0].out.insert(kept_[0].out.end(), moved.out.begin(), moved.out.end());
+    }
+}
+
+bool Ways::sound() const {
+    auto known = [&](std::uint64_t region) { return region < regions_.count; };
+    return std::all_of(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+        return std::all_of(kept.out.begin(), kept.out.end(), known) &&
+               std::all_of(kept.pairs.begin(), kept.pairs.end(), [&](std::uint64_t pair) {
+                   return known(pair >> 32) && known(pair & 0xffffffffu);
+               });
+    });
+}
+
 template <class Visit>
 void Ways::for_ends(Visit&& visit) const {
     for (const Kept& kept : kept_)

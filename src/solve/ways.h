@@ -42,6 +42,15 @@ public:
     /// Keeps a share of the pairs of some lines, another for each salt; each worker by itself.
     void keep(const TilePairs& pairs, std::uint64_t salt, unsigned worker);
 
+    /// All that is kept, to be written or read; for writing it must have been collected.
+    void collect();
+    template <class Archive>
+    void fields(Archive& a) {
+        a(kept_[0].pairs), a(kept_[0].out);
+    }
+    /// False where a region is none.
+    bool sound() const;
+
     /// O(kept).
     GroupWays between_groups() const;
     /// O(kept log(kept / regions)).

@@ -68,6 +68,23 @@ void Banks::clear(unsigned threads) {
     });
 }
 
+void Banks::collect(unsigned threads) {
+    parallel_for(threads, banks_[0].received.size(), 1 << 14,
+                 [&](std::size_t begin, std::size_t end, unsigned) {
+                     for (std::size_t other = 1; other < banks_.size(); ++other)
+                         for (std::size_t k = begin; k < end; ++k)
+                             banks_[0].received[k] += std::exchange(banks_[other].received[k], 0);
+                 });
+    for (std::size_t worker = 1; worker < totals_.size(); ++worker) {
+        const WorkerTotals moved = std::exchange(totals_[worker], {});
+        totals_[0].counts += moved.counts;
+        for (std::uint32_t band = 0; band < bands_; ++band) {
+            totals_[0].escaped[band] += moved.escaped[band];
+            totals_[0].sky[band] += moved.sky[band];
+        }
+    }
+}
+
 void Banks::join(unsigned threads) {
     parallel_for(threads, banks_[0].received.size(), 1 << 14,
                  [&](std::size_t begin, std::size_t end, unsigned) {

@@ -32,6 +32,18 @@ public:
     void clear_patch(std::size_t patch);
     /// Sets all values to 0.
     void clear(unsigned threads);
+    /// Moves all that was received, and the workers' totals, to the first worker's.
+    void collect(unsigned threads);
+    /// All that they hold, to be written or read; for writing it must have been collected.
+    template <class Archive>
+    void fields(Archive& a) {
+        a(banks_[0].received), a(totals_[0].escaped), a(totals_[0].sky);
+        fields_of(a, totals_[0].counts);
+    }
+    bool sound() const {
+        return banks_[0].received.size() == patches_ * lanes(bands_) &&
+               totals_[0].escaped.size() == max_bands && totals_[0].sky.size() == max_bands;
+    }
     /// Leaves one bank, which holds the sum of all, and gives the others' memory back.
     void join(unsigned threads);
 

@@ -31,7 +31,7 @@ void set_errors(const PairCounts& counts, const SparseRows& rows, Factors& facto
     for (std::size_t i = 0; i < factors.nodes.size(); ++i) {
         area += factors.nodes[i].area;
         sky += factors.nodes[i].area * factors.sky_error[i] * factors.sky_error[i];
-        if (factors.exits[i] == 0)
+        if (counts.exits()[i] == 0)
             continue;
         double of_sums = 0;
         for (std::uint64_t k = rows.start[i]; k < rows.start[i + 1]; ++k)
@@ -39,7 +39,7 @@ void set_errors(const PairCounts& counts, const SparseRows& rows, Factors& facto
         // F_ij is Σ_g n_ijg / n_i: the variance of a sum of groups.
         const double variance =
             std::max(0.0, counts.squares()[i] - of_sums / groups) * groups / (groups - 1);
-        const double exits = static_cast<double>(factors.exits[i]);
+        const double exits = static_cast<double>(counts.exits()[i]);
         between += factors.nodes[i].area * variance / (exits * exits);
     }
     factors.rms_sky = std::sqrt(sky / area);

@@ -11,17 +11,18 @@ namespace parallux {
 
 namespace {
 
-// Entries that the workers together keep before they are added up: some tens of MiB.
-constexpr std::size_t most_entries = std::size_t(1) << 21;
 // Of large scenes, a bundle is work for all threads, and one projection memory enough.
 constexpr std::size_t many_surfaces = 1 << 13;
+constexpr std::uint64_t many_lines = 1 << 18, most_weighed_lines = 1 << 22;
 
 }  // namespace
 
 // A worker's own; no two workers write to one cache line.
 struct alignas(64) PairSweep::Buffers {
     std::shared_ptr<Projector::Workspace> workspace;
+    Projection projection;
     TilePairs pairs;
+    std::vector<double> expected;
     IntersectionLists lists;  // of scenes that repeat
     LineCounts counts;
 };
@@ -35,6 +36,7 @@ PairSweep::PairSweep(const Scene& scene, const Patches& patches, const NodeMap& 
       threads_(threads),
       counts_(counts),
       projector_(scene, patches),
+      expected_(scene, patches, nodes),
       buffers_(threads) {
     for (Buffers& buffers : buffers_)
         buffers.workspace = projector_.make_workspace();
@@ -53,7 +55,8 @@ void PairSweep::bundles(const BundleSettings& lattice, std::uint64_t first, std:
         repeated(lattice, first, count);
     else
         one_tile(lattice, first, count);
-    counts_.apply(threads_);
+    if (counts_.listed() > counts_.enough())
+        counts_.apply(threads_);
     take_up();
 }
 
@@ -64,9 +67,11 @@ void PairSweep::in_rounds(const std::vector<std::size_t>& tiles, Follow&& follow
     std::vector<std::size_t> before(tiles.size() + 1, 0);
     std::partial_sum(tiles.begin(), tiles.end(), before.begin() + 1);
     for (std::size_t done = 0; done < before.back();) {
-        const double room = entries_a_tile_ > 0 ? most_entries / entries_a_tile_ : 64;
+        const double room =
+            entries_a_tile_ > 0 ? static_cast<double>(counts_.enough()) / 2 / entries_a_tile_ : 64;
         const std::size_t round =
             std::min(before.back() - done, static_cast<std::size_t>(std::clamp(room, 1.0, 1e6)));
+        const std::uint64_t before_round = counts_.listed();
         parallel_for(threads_, round, 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
             for (std::size_t tile = done + begin; tile < done + end; ++tile) {
                 const auto k = static_cast<std::size_t>(
@@ -75,29 +80,61 @@ void PairSweep::in_rounds(const std::vector<std::size_t>& tiles, Follow&& follow
             }
         });
         done += round;
-        const std::uint64_t held = counts_.buffered();
-        entries_a_tile_ = std::max(static_cast<double>(held) / static_cast<double>(round), 1.0);
-        if (held > most_entries / 2)
+        const std::uint64_t listed = counts_.listed();
+        entries_a_tile_ =
+            std::max(static_cast<double>(listed - before_round) / static_cast<double>(round), 1.0);
+        if (listed > counts_.enough() / 2)
             counts_.apply(threads_);
     }
 }
 
-void PairSweep::one_tile(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
-    projections_.resize(std::max<std::size_t>(projections_.size(), count));
-    if (count == 1)
-        projector_.project(make_bundle(lattice, first), projections_[0], threads_);
-    else
-        parallel_for(threads_, count, 1, [&](std::size_t begin, std::size_t end, unsigned) {
-            for (std::size_t k = begin; k < end; ++k)
-                projector_.project(make_bundle(lattice, first + k), projections_[k]);
-        });
-    std::vector<std::size_t> tiles;
-    for (std::uint32_t k = 0; k < count; ++k)
-        tiles.push_back(projections_[k].tiles());
-    in_rounds(tiles, [&](std::size_t k, std::size_t tile, unsigned worker) {
+// A bundle of a small scene, by one worker alone.
+void PairSweep::follow_alone(const Bundle& bundle, unsigned worker) {
+    Buffers& buffers = buffers_[worker];
+    projector_.project(bundle, buffers.projection);
+    for (std::size_t tile = 0; tile < buffers.projection.tiles(); ++tile) {
+        projector_.pairs(buffers.projection, tile, *buffers.workspace, buffers.pairs);
+        count_tile(bundle.direction, worker);
+    }
+    expected_.of(bundle, buffers.expected);
+    counts_.end_bundle(worker, worker + 1, buffers.expected);
+}
+
+// A bundle that is work for all threads. One of too many lines to keep its counts is taken up
+// while it is followed, and its lines, of which each node has many, are not weighed.
+void PairSweep::follow_together(const Bundle& bundle) {
+    Projection& projection = buffers_[0].projection;
+    projector_.project(bundle, projection, threads_);
+    auto follow = [&](std::size_t tile, unsigned worker) {
         Buffers& buffers = buffers_[worker];
-        projector_.pairs(projections_[k], tile, *buffers.workspace, buffers.pairs);
-        count_tile(projections_[k].bundle.direction, worker);
+        projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
+        count_tile(bundle.direction, worker);
+    };
+    if (projection.lines() > most_weighed_lines) {
+        in_rounds({projection.tiles()},
+                  [&](std::size_t, std::size_t tile, unsigned worker) { follow(tile, worker); });
+        counts_.end_bundle(0, threads_, {});
+        return;
+    }
+    parallel_for(threads_, projection.tiles(), 1,
+                 [&](std::size_t begin, std::size_t end, unsigned worker) {
+                     for (std::size_t tile = begin; tile < end; ++tile)
+                         follow(tile, worker);
+                 });
+    expected_.of(bundle, buffers_[0].expected);
+    counts_.end_bundle(0, threads_, buffers_[0].expected);
+}
+
+void PairSweep::one_tile(const BundleSettings& lattice, std::uint64_t first, std::uint32_t count) {
+    const double radius = projector_.radius() / lattice.spacing;
+    if (count == 1 || pi * radius * radius > static_cast<double>(many_lines)) {
+        for (std::uint32_t k = 0; k < count; ++k)
+            follow_together(make_bundle(lattice, first + k));
+        return;
+    }
+    parallel_for(threads_, count, 1, [&](std::size_t begin, std::size_t end, unsigned worker) {
+        for (std::size_t k = begin; k < end; ++k)
+            follow_alone(make_bundle(lattice, first + k), worker);
     });
 }
 
@@ -122,6 +159,7 @@ void PairSweep::repeated(const BundleSettings& lattice, std::uint64_t first, std
         bundles[k]->pairs(tile, *workspaces[worker], buffers.lists, buffers.pairs);
         count_tile(bundles[k]->direction(), worker);
     });
+    counts_.end_bundle(0, threads_, {});
 }
 
 void PairSweep::count_tile(const glm::dvec3& direction, unsigned worker) {

@@ -177,6 +177,7 @@ Account close_account(SparseRows counts, const std::vector<double>& outside,
         account.outside[i] = account.scale[i] * outside[i];
         empty |= counts.start[i] == counts.start[i + 1] && outside[i] == 0;
     }
+    account.closed = closed;
     account.exchange = std::move(counts);
     apply_scale(account.scale, threads, account.exchange);
     if (!closed || empty)

@@ -12,6 +12,7 @@ struct Account {
     std::vector<double> outside;  ///< of each row, all that goes outside
     std::vector<double> scale;    ///< d_i: outside_i = d_i · what was counted
     double rest = 0;              ///< put on the diagonal where no scaling closes the row, m²
+    bool closed = false;          ///< by scaling alone, but for empty rows
 };
 
 /// exchange_ij = d_i n_ij d_j and outside_i = d_i s_i with row sums area_i, to about 1e-14 of them.

@@ -16,8 +16,8 @@ struct SparseRows {
     std::size_t rows() const { return start.size() - 1; }
 };
 
-/// The counts n_ij of all groups; n_ii counts both ends of a line. Empties the tables.
-SparseRows take_rows(PairCounts& counts, unsigned threads);
+/// The counts n_ij of all groups; n_ii counts both ends of a line. Empties the counts.
+SparseRows take_rows(PairCounts& counts);
 
 /// Without the entries (row, column) that `keep` is false for; it must be symmetric.
 template <class Keep>

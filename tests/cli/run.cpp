@@ -96,7 +96,15 @@ Running::Running(const Workplace& place, const std::vector<std::string>& argumen
         argv.push_back(const_cast<char*>(argument.c_str()));
     argv.push_back(nullptr);
     write_file(err_, "");
+    // Until the program is there, no signal may meet what the tests do about signals.
+    sigset_t ending, before;
+    sigemptyset(&ending);
+    for (int signal : {SIGINT, SIGTERM})
+        sigaddset(&ending, signal);
+    sigprocmask(SIG_BLOCK, &ending, &before);
     process_ = fork();
+    if (process_ != 0)
+        sigprocmask(SIG_SETMASK, &before, nullptr);
     if (process_ < 0)
         throw std::runtime_error("cannot fork");
     if (process_ == 0) {
@@ -115,6 +123,9 @@ Running::Running(const Workplace& place, const std::vector<std::string>& argumen
         for (int descriptor : {in, out, err})
             if (descriptor > 2)
                 close(descriptor);
+        for (int signal : {SIGINT, SIGTERM})
+            std::signal(signal, SIG_DFL);
+        sigprocmask(SIG_SETMASK, &before, nullptr);
         execv(argv[0], argv.data());
         _exit(127);
     }

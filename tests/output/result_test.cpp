@@ -143,7 +143,7 @@ TEST_CASE("a made-up file with the right checksum is read or refused, no more") 
     write_result(file, small());
     const std::string whole = test::bytes_of(file);
     std::size_t refused = 0;
-    for (std::size_t at = result_head; at + 8 < whole.size(); ++at)
+    for (std::size_t at = sealed_head; at + 8 < whole.size(); ++at)
         for (int flip : {0x01, 0x7f, 0xff}) {
             std::string bytes = whole;
             bytes[at] = static_cast<char>(bytes[at] ^ flip);
@@ -151,7 +151,7 @@ TEST_CASE("a made-up file with the right checksum is read or refused, no more") 
             refused += refusal() != "";
         }
     CHECK(refused > 100);
-    for (std::size_t length = result_head + 8; length < whole.size(); ++length) {
+    for (std::size_t length = sealed_head + 8; length < whole.size(); ++length) {
         write(sealed(whole.substr(0, length)));
         CAPTURE(length);
         CHECK(refusal() != "");

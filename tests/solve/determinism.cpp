@@ -23,12 +23,7 @@ Scene mixed_scene() {
     scene.materials[5].emission[1] = 1;
     scene.materials[5].emission[2] = 0.25f;
     add_turned_cube(scene, {0.4, 0.5, 0.45}, 0.3, 4, grey(0.8));
-    Light light;
-    light.position = {0.1, 0.2, 0.9};
-    light.intensity = Spectrum::constant(0.5);
-    scene.lights = {light};
-    scene.sky.kind = Sky::Kind::uniform;
-    scene.sky.zenith = Spectrum::constant(0.1f);
+    add_light_and_sky(scene);
     return scene;
 }
 

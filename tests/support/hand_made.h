@@ -125,6 +125,16 @@ inline void add_ball(Scene& scene, glm::dvec3 centre, double radius, std::uint32
         }
 }
 
+/// A point light within the unit cube and a uniform sky, so that a run has all kinds of sources.
+inline void add_light_and_sky(Scene& scene) {
+    Light light;
+    light.position = {0.1, 0.2, 0.9};
+    light.intensity = Spectrum::constant(0.5);
+    scene.lights = {light};
+    scene.sky.kind = Sky::Kind::uniform;
+    scene.sky.zenith = Spectrum::constant(0.1f);
+}
+
 /// An L-shaped room of height 1: the unit squares at (0, 0), (1, 0) and (0, 1), with floors and
 /// ceilings of three squares each, so that all edges are shared whole.
 inline Scene l_room(const Material& wall, const Material& light, std::uint32_t n) {

@@ -15,6 +15,7 @@ namespace {
 FactorSettings many_lines() {
     FactorSettings settings;
     settings.bundles = 8192;
+    settings.sky_from = SkyFrom::lines;
     return settings;
 }
 

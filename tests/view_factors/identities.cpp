@@ -123,13 +123,13 @@ TEST_CASE("counts are whole, symmetric, and come to the exits") {
     counts.end_group(2);
     counts.put(0, 0, 3, 1);
     counts.end_group(2);
-    CHECK(counts.exits() == std::vector<std::uint64_t>{7, 7, 11});
-    CHECK(counts.outside()[2 * 3 + 1] == 4);
-    CHECK(counts.pairs().all == 2);
-    const SparseRows rows = take_rows(counts, 2);
+    CHECK(counts.exits() == std::vector<std::uint64_t>{7 * 64, 7 * 64, 11 * 64});
+    CHECK(counts.outside()[2 * 3 + 1] == 4 * PairCounts::line);
+    CHECK(counts.pairs() == 2);
+    const SparseRows rows = take_rows(counts);
     CHECK(rows.start == std::vector<std::uint64_t>{0, 1, 2, 3});
     CHECK(rows.column == std::vector<std::uint32_t>{0, 2, 1});
-    CHECK(rows.value == std::vector<double>{6, 7, 7});
+    CHECK(rows.value == std::vector<double>{6 * 64, 7 * 64, 7 * 64});
 }
 
 TEST_CASE("one result on any number of threads, also of a mesh") {

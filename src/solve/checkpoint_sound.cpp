@@ -1,0 +1,73 @@
+#include <algorithm>
+
+#include "solve/checkpoint_fields.h"
+
+namespace parallux {
+
+namespace {
+
+// Rows that are there or not.
+template <class Row>
+bool all_or_none(const Row& row, std::size_t size) {
+    return row.empty() || row.size() == size;
+}
+
+bool sound(const DirectLight& direct, const Group& group, const Patches& patches) {
+    const std::size_t values = patches.reflectance.size();
+    // Totals are there from the first shots on.
+    const bool begun = group.stage != Stage::trial && !direct.emitted.empty();
+    for (const auto* totals : {&direct.emitted, &direct.absorbed, &direct.escaped, &direct.unshot})
+        if (totals->size() != (begun ? patches.bands : 0))
+            return false;
+    if (group.stage > Stage::sources && !begun)
+        return false;
+    return all_or_none(direct.shot, values) && all_or_none(direct.irradiance, values) &&
+           all_or_none(direct.exitance, values);
+}
+
+bool sound(const TransferState& state, const Group& group, const Patches& patches) {
+    if (group.stage < Stage::pass)
+        return state.bands == 0;
+    const std::size_t values = patches.reflectance.size();
+    const std::size_t carried = patches.count() * lanes(patches.bands);
+    for (const auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
+        if (totals->size() != patches.bands)
+            return false;
+    const bool passing = group.stage == Stage::pass;
+    return state.bands == patches.bands && state.watts_per_quantum > 0 &&
+           state.sent.size() == (passing ? values : 0) &&
+           (passing ? state.carried.size() == carried : all_or_none(state.carried, carried));
+}
+
+bool sound(const PassResult& pass, const Group& group, const Plan& plan, const Patches& patches) {
+    if (group.stage < Stage::pass)
+        return !pass.leftover && pass.batch == 0 && pass.bundles == 0;
+    if (group.stage == Stage::pass)
+        return pass.leftover && pass.leftover->sound() && pass.bundles <= plan.passing() &&
+               pass.batch >= 1 &&
+               (pass.bundles == plan.passing() || pass.batch <= plan.passing() - pass.bundles);
+    const Balance& e = pass.balance;
+    for (const auto* totals : {&e.emitted, &e.absorbed, &e.escaped, &e.unshot, &e.residual})
+        if (totals->size() != patches.bands)
+            return false;
+    return pass.irradiance.size() == patches.reflectance.size() &&
+           pass.crossings.size() == patches.count();
+}
+
+}  // namespace
+
+bool sound(const RunState& run, const Patches& patches) {
+    const Group& group = run.group;
+    if (group.stage > Stage::local_rays || !run.rounds.sound() || !run.estimate.sound() ||
+        !run.banks.sound())
+        return false;
+    // In rising order, each once.
+    for (std::size_t k = 0; k < group.small.size(); ++k)
+        if (group.small[k].patch >= patches.count() ||
+            (k > 0 && group.small[k].patch <= group.small[k - 1].patch))
+            return false;
+    return sound(group.direct, group, patches) && sound(group.state, group, patches) &&
+           sound(group.pass, group, run.plan, patches);
+}
+
+}  // namespace parallux
