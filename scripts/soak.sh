@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# All that takes too long for every change; some hours on two cores. What came of each part goes to
-# tests/soak-results.md. scripts/soak.sh [PART …], of: plant fuzz asan threads valgrind memory faults.
-# SECONDS_A_TARGET and ROUNDS say how long to fuzz and how often to interrupt.
+# All that takes too long for every change; about three hours on two cores. What came of each part
+# goes to tests/soak-results.md. scripts/soak.sh [PART …], of: plant fuzz asan threads valgrind memory
+# faults
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -19,17 +19,29 @@ part() { # name, command …
     {
         echo "$outcome in $((SECONDS - begin)) s, $(date -u +%F), commit $(git describe --always --dirty 2>/dev/null)"
         echo
-        grep -hE "^ *[a-z_]+ [0-9]+ runs|found by|NOT FOUND|tests passed|tests failed|patches, peak|planted|^== " \
+        grep -hE "^  ? ? ?[a-z_]+ [0-9]+ runs|found by|NOT FOUND|tests passed|tests failed|patches, peak|planted|checks, [0-9]+ failed" \
             "$logs/$name.log" | sed 's/^ */    /'
     } >"$logs/$name.md"
 }
 
-# A sanitizer's suite, and an error of its kind that it must find.
-sanitized() { # preset, errors …
-    local preset=$1
-    shift
-    cmake --preset "$preset" && cmake --build --preset "$preset" && ctest --preset "$preset" &&
-        tests/sanitizers/planted.sh "$preset" "$@"
+# A sanitizer's suite, which also makes errors that it must find.
+sanitized() { # preset
+    cmake --preset "$1" && cmake --build --preset "$1" && ctest --preset "$1"
+}
+
+# Every error at every system call, two thousand failing allocations, hundreds of random moments.
+faults() {
+    cmake --preset release && cmake --build --preset release || return
+    local fault code round
+    for fault in kill errors space odd; do
+        code=0
+        tests/faults/$fault.sh "$PWD/build/release/parallux" "$PWD/scenes" all || code=$?
+        ((code == 0 || code == 77)) || return $code
+    done
+    for round in 1 2 3 4 5; do
+        PARALLUX_SOAK=$round build/release/tests/test_checkpoints || return
+        PARALLUX_SOAK=$round build/release/tests/test_cli -sf='*checkpoints.cpp,*signals.cpp' || return
+    done
 }
 
 # Every error at every system call, two thousand failing allocations, hundreds of random moments.
@@ -55,12 +67,12 @@ scripts/install-deps.sh || exit 1
 for name in "${parts[@]}"; do
     case $name in
         plant) part plant scripts/plant.sh ;;
-        fuzz) part fuzz tests/fuzz/fuzz.sh "${SECONDS_A_TARGET:-60}" ;;
-        asan) part asan sanitized asan-ubsan overrun overflow leak ;;
-        threads) part threads sanitized threads-check race ;;
+        fuzz) part fuzz tests/fuzz/fuzz.sh 60 ;;
+        asan) part asan sanitized asan-ubsan ;;
+        threads) part threads sanitized threads-check ;;
         valgrind) part valgrind tests/sanitizers/valgrind.sh ;;
         memory) part memory tests/memory/peaks.sh 1000 10000 100000 1000000 10000000 ;;
-        faults) part faults faults "${ROUNDS:-5}" ;;
+        faults) part faults faults ;;
         *) echo "soak.sh: no part $name" >&2 && exit 2 ;;
     esac
 done
