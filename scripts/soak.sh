@@ -44,23 +44,6 @@ faults() {
     done
 }
 
-# Every error at every system call, two thousand failing allocations, hundreds of random moments.
-faults() { # rounds
-    local fault code round
-    cmake --preset release && cmake --build --preset release || return
-    for fault in kill errors space odd; do
-        echo "== $fault"
-        code=0
-        tests/faults/$fault.sh "$PWD/build/release/parallux" "$PWD/scenes" all || code=$?
-        ((code == 0 || code == 77)) || return 1
-    done
-    for ((round = 1; round <= $1; round++)); do
-        echo "== round $round of $1"
-        PARALLUX_SOAK=$round build/release/tests/test_checkpoints || return
-        PARALLUX_SOAK=$round build/release/tests/test_cli -sf='*checkpoints.cpp,*signals.cpp' || return
-    done
-}
-
 parts=("$@")
 ((${#parts[@]} > 0)) || parts=(plant fuzz asan threads valgrind memory faults)
 scripts/install-deps.sh || exit 1
