@@ -67,7 +67,11 @@ struct Footprint {
     }
     // Mean and spread of the groups before.
     std::uint64_t groups() const {
-        return plan.groups > 1 || settings.target_error > 0 ? count * (bands * 8 + 8) : 0;
+        if (plan.groups == 1 && settings.target_error <= 0)
+            return 0;
+        // Freed arrays of less than 32 MiB may lie between others, and stay with the process.
+        const std::uint64_t between = std::min(count * 16, std::uint64_t(32) << 20);
+        return count * (bands * 8 + 8) + between;
     }
     // A checkpoint lies in memory while it is written, or read.
     std::uint64_t checkpoint() const {
@@ -78,7 +82,8 @@ struct Footprint {
         const std::uint64_t a_view = ExactShot::bytes_a_cell();
         return exact ? count * (sizeof(Emitter) + count_sources(scene, patches) * a_view) : 0;
     }
-    // The cells that send, with their power, and of exact shots one view more while it is made.
+    // The cells that send, with their power and that of their rays, and of exact shots one view
+    // more while it is made.
     std::uint64_t first_shot() const {
         std::uint64_t cells = 0;
         for (std::size_t patch = 0; local && patch < count; ++patch)
@@ -87,7 +92,7 @@ struct Footprint {
                                  [](float emission) { return emission > 0; });
         const bool all = settings.shots > 0 || settings.method == Method::progressive ||
                          settings.method == Method::particles;
-        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 8 + 12) +
+        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 16 + 12) +
                (all ? count * (100 + bands * 12) : 0) +
                (exact ? views() + count * ExactShot::bytes_a_cell() : 0);
     }

@@ -58,10 +58,10 @@ ExactShot::View ExactShot::view_of(std::size_t source) {
     });
     // Count first: arrays that grow take twice the memory.
     View view;
-    std::size_t seen = 0, pairs = 0;
+    std::size_t cells_seen = 0, pairs = 0;
     for (const Chunk& chunk : chunks)
-        seen += chunk.seen.size(), pairs += chunk.pairs.size();
-    view.seen.reserve(seen);
+        cells_seen += chunk.seen.size(), pairs += chunk.pairs.size();
+    view.seen.reserve(cells_seen);
     view.pairs.reserve(pairs);
     for (Chunk& chunk : chunks) {
         view.seen.insert(view.seen.end(), chunk.seen.begin(), chunk.seen.end());

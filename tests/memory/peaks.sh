@@ -43,6 +43,7 @@ for patches in "$@"; do
     bundles=(--bundles 64)
     ((patches > 100000)) && bundles=(--bundles 16)
     check furnace.json "$patches" "${bundles[@]}" --first-shot none
+    check furnace.json "$patches" "${bundles[@]}" --first-shot rays --groups 4
     check cornell_box.gltf "$patches" "${bundles[@]}" --first-shot none
     check cornell_box.gltf "$patches" "${bundles[@]}" --first-shot rays
     check cornell_box.gltf "$patches" "${bundles[@]}" --groups 4
