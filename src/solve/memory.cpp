@@ -107,8 +107,8 @@ struct Footprint {
                (banks < threads ? 1 : threads) * copies_bytes(scene) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
-    // Regions, irradiance and crossings beside what exits carry; radiosity in its place once that is
-    // over.
+    // Regions, irradiance and crossings beside what exits carry; radiosity in its place once that
+    // is over.
     std::uint64_t gather() const {
         return all_banks() + direct() + groups() + views() + count * (bands * 4 + 12) +
                count * std::max(lanes(bands) * 4, bands * 4);
