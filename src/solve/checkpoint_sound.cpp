@@ -33,6 +33,23 @@ double quanta_in(const std::vector<float>& row, const Patches& patches, double w
     return sum;
 }
 
+// Without the counts of lines, which lie behind the bands.
+double quanta_in(const Bank& bank, std::uint32_t bands) {
+    double sum = 0;
+    for (std::size_t k = 0; k < bank.received.size(); ++k)
+        if (k % lanes(bands) < bands)
+            sum += std::fabs(static_cast<double>(bank.received.data()[k]));
+    return sum;
+}
+
+template <class Row>
+double largest_in(const Row& row) {
+    double largest = 0;
+    for (const std::int64_t value : row)
+        largest = std::max(largest, std::fabs(static_cast<double>(value)));
+    return largest;
+}
+
 bool few_quanta(const RunState& run, const Patches& patches) {
     const DirectLight& direct = run.group.direct;
     const TransferState& state = run.group.state;
@@ -49,10 +66,14 @@ bool few_quanta(const RunState& run, const Patches& patches) {
     for (const auto* totals :
          {&state.sent, &state.sky, &state.emitted, &state.absorbed, &state.escaped})
         most = std::max(most, unit * quanta_in(*totals));
+    // Gathers have quanta of their own, whose sums are taken apart from all these.
+    const bool gathers = run.group.stage > Stage::pass;
     for (const Bank& bank : run.banks.banks())
-        most = std::max(most, unit * quanta_in(bank.received));
+        most = std::max(
+            most, gathers ? largest_in(bank.received) : unit * quanta_in(bank, patches.bands));
     for (const WorkerTotals& totals : run.banks.all_totals())
-        most = std::max({most, unit * quanta_in(totals.sky), unit * quanta_in(totals.escaped)});
+        for (const auto* row : {&totals.sky, &totals.escaped})
+            most = std::max(most, gathers ? largest_in(*row) : unit * quanta_in(*row));
     return most <= most_quanta;
 }
 

@@ -67,7 +67,7 @@ std::vector<Kind> kinds() {
     SolveSettings usual;
     usual.bundles = 160;
     usual.groups = 3;
-    std::vector<Kind> all(9, {"", lit_room(), usual});
+    std::vector<Kind> all(10, {"", lit_room(), usual});
     all[0].name = "exact first shots, sky and lights";
     all[1].name = "rays, as many as a trial tells";
     for (std::size_t s = 0; s < 300; ++s)  // too many surfaces for exact ones
@@ -102,6 +102,12 @@ std::vector<Kind> kinds() {
     all[8].settings.batch = 32;
     all[8].settings.groups = 1;
     all[8].settings.gather_share = 0;
+    all[9].name = "few bundles, of which most gather, with quanta of their own";
+    all[9].scene = room({grey(0.7), grey(0.7), grey(0.7), grey(0.7), grey(0.7), grey(0.7, 20)}, 3);
+    all[9].settings = {};
+    all[9].settings.bundles = 64;
+    all[9].settings.batch = 1;
+    all[9].settings.gather_share = 0.8;
     return all;
 }
 
@@ -160,7 +166,8 @@ bool contains(const std::string& text, const std::string& part) {
 }  // namespace
 
 // Planted, each seen to fail: the dither, the batch or other workers' totals not taken up; the
-// state kept after the stop was acted upon; emission not darkened.
+// state kept after the stop was acted upon; emission not darkened; quanta of a gather taken for the
+// pass's when a checkpoint is judged.
 TEST_CASE("interrupted anywhere and resumed on other threads: the same bits") {
     unsigned threads = 0;
     for (Kind& kind : kinds()) {
