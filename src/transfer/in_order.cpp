@@ -21,9 +21,11 @@ struct InOrder {
         return &bank.received[static_cast<std::size_t>(patch) * lanes(bands)];
     }
 
-    std::int64_t reflected(std::size_t k, std::int64_t quanta) const {
-        return std::llrint(static_cast<double>(patches.reflectance[k]) *
-                           static_cast<double>(quanta));
+    // All that a patch has to send or has sent of what arrived, k = patch * bands + band.
+    std::int64_t leaving(std::size_t k) {
+        return scattered_quanta(patches, k, [&](std::size_t at) {
+            return received(static_cast<std::uint32_t>(at / bands))[at % bands];
+        });
     }
 
     // Takes all that a patch has to send: its unshot energy and the emission of one exit.
@@ -33,7 +35,7 @@ struct InOrder {
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
             std::int64_t emission = std::llrint(state.emission.of_exit(patches, k + band));
-            std::int64_t all = reflected(k + band, own[band]);
+            std::int64_t all = leaving(k + band);
             energy[band] = all - state.sent[k + band] + emission;
             state.emitted[band] += emission;
             state.sent[k + band] = all;
@@ -44,9 +46,10 @@ struct InOrder {
         std::int64_t* own = received(patch);
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
-            std::int64_t before = reflected(k + band, own[band]);
+            std::int64_t before = passed_on(patches, k + band, own[band]);
             own[band] += energy[band];
-            state.absorbed[band] += energy[band] - (reflected(k + band, own[band]) - before);
+            state.absorbed[band] +=
+                energy[band] - (passed_on(patches, k + band, own[band]) - before);
         }
     }
 
