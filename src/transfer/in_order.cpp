@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "parallux/transfer.h"
 #include "transfer/for_bands.h"
@@ -16,6 +18,12 @@ struct InOrder {
     Bank& bank;
     const Patches& patches;
     LineCounts& counts;
+
+    struct Arrival {
+        std::uint32_t patch;
+        std::int64_t energy[bands];
+    };
+    std::vector<Arrival> waiting = {};
 
     std::int64_t* received(std::uint32_t patch) {
         return &bank.received[static_cast<std::size_t>(patch) * lanes(bands)];
@@ -42,7 +50,22 @@ struct InOrder {
         }
     }
 
+    // What comes through a surface must not go on along the line that brought it, as if that had
+    // not been scattered: where light does, it arrives when the line is over.
     void arrive(std::uint32_t patch, const std::int64_t* energy) {
+        if (!patches.translucent())
+            return take(patch, energy);
+        waiting.push_back({patch, {}});
+        std::copy_n(energy, bands, waiting.back().energy);
+    }
+
+    void end_line() {
+        for (const Arrival& one : waiting)
+            take(one.patch, one.energy);
+        waiting.clear();
+    }
+
+    void take(std::uint32_t patch, const std::int64_t* energy) {
         std::int64_t* own = received(patch);
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
@@ -114,6 +137,7 @@ struct InOrder {
             escape(last);
         if (outside && both_ways && last != none)
             sky(last, outside->against);
+        end_line();
     }
 };
 
