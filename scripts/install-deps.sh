@@ -8,7 +8,7 @@ packages=(
     libtbb-dev libembree-dev libopenimageio-dev openimageio-tools libglm-dev
     nlohmann-json3-dev libcli11-dev libeigen3-dev libhwy-dev
     doctest-dev libbenchmark-dev gnuplot-nox
-    clang-format strace
+    clang-format clang-14 libclang-rt-14-dev llvm-14 valgrind patch strace
 )
 
 missing=()

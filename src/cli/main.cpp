@@ -38,6 +38,8 @@ int solve_scene(SolveOptions options) {
     Prepared prepared = prepare(options);
     auto& [scene, patches, measured, loaded, divided] = prepared;
 
+    if (!options.quiet)
+        tell_memory(predicted_memory(scene, patches, options.solve));
     keep_results();
     ProgressReport report(options.progress, options.quiet);
     Refresh refresh(options, scene, patches, report);

@@ -114,6 +114,10 @@ void tell_reuse(const SolveOptions& options, const Scene& scene, const Patches& 
     tell_warnings(scene, solution);
 }
 
+void tell_memory(std::uint64_t bytes) {
+    print("memory   " + std::to_string((bytes >> 20) + 1) + " MiB at most, but for outputs\n");
+}
+
 void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
                   const Solution& solution) {
     print(summary(options, patches, solution));

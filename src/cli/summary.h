@@ -6,6 +6,9 @@
 
 namespace parallux {
 
+/// Before a solve: the line on standard output that says how much memory it will take.
+void tell_memory(std::uint64_t bytes);
+
 /// A few lines on standard output on what a solve did, then the warnings on standard error.
 void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,
                   const Solution& solution);

@@ -15,6 +15,8 @@ inline bool before(const Hit& a, const Hit& b) {
 /// Sorts a list. Returns whether any two hits are so near each other that snapping and rounding may
 /// have turned them; `slack[surface]` is how far snapping may have moved the depths of each.
 inline bool sort_hits(Hit* begin, Hit* end, float tie, const std::vector<float>& slack) {
+    if (end - begin < 2)
+        return false;
     // Lists are mostly 2 to 4 long.
     if (end - begin > 24) {
         std::sort(begin, end, before);

@@ -9,6 +9,9 @@ namespace parallux {
 inline constexpr FileKind result_kind = {"PLXRES\r\n", 1, "a result", "parallux solve --save",
                                          "solve again with --save"};
 
+/// read_result() of a file that has these bytes.
+SavedSolution result_of(const std::filesystem::path& file, const std::string& bytes);
+
 /// All that a file keeps of a result, in its order, for reading and writing alike: the archive is
 /// called with each value.
 template <class Archive>

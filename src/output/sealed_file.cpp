@@ -55,8 +55,8 @@ void SealedFile::flush() {
     pending_.clear();
 }
 
-std::string read_sealed(const std::filesystem::path& file, const FileKind& kind) {
-    std::string bytes = read_file(file, std::uint64_t(1) << 36);
+void check_sealed(const std::filesystem::path& file, const std::string& bytes,
+                  const FileKind& kind) {
     const std::string name = kind.name, remedy = std::string("; ") + kind.remedy;
     auto fail = [&](const std::string& what) { input_error(file, "", what); };
     if (bytes.compare(0, magic_bytes, kind.magic, magic_bytes) != 0)
@@ -73,6 +73,11 @@ std::string read_sealed(const std::filesystem::path& file, const FileKind& kind)
     sum.add(std::string_view(bytes).substr(0, bytes.size() - sealed_tail));
     if (sum.value() != word_at<std::uint64_t>(bytes, bytes.size() - sealed_tail))
         fail("damaged: its checksum is wrong" + remedy);
+}
+
+std::string read_sealed(const std::filesystem::path& file, const FileKind& kind) {
+    std::string bytes = read_file(file, most_sealed_bytes);
+    check_sealed(file, bytes, kind);
     return bytes;
 }
 

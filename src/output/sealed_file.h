@@ -40,8 +40,14 @@ private:
     std::string pending_;
 };
 
-/// A whole file of that kind; its body lies between head and tail. Throws Fault::input for a file
-/// that is none, of another format, cut, longer, or changed in any byte.
+inline constexpr std::uint64_t most_sealed_bytes = std::uint64_t(1) << 36;
+
+/// Throws Fault::input unless these are the bytes of a whole file of that kind: for a file that is
+/// none, of another format, cut, longer, or changed in any byte.
+void check_sealed(const std::filesystem::path& file, const std::string& bytes,
+                  const FileKind& kind);
+
+/// A whole file of that kind; its body lies between head and tail. Throws as check_sealed().
 std::string read_sealed(const std::filesystem::path& file, const FileKind& kind);
 inline std::string_view body_of(const std::string& sealed) {
     return std::string_view(sealed).substr(sealed_head, sealed.size() - sealed_head - sealed_tail);

@@ -100,6 +100,9 @@ void write_stats(const std::filesystem::path& file, const Scene& scene, const Pa
     stats["seconds"] = seconds_of(solution.seconds);
     stats["lines_per_second"] = ratio(lines, solution.seconds.global + solution.seconds.gather);
     stats["peak_memory_bytes"] = peak_memory();
+    stats["predicted_memory_bytes"] = nullptr;
+    if (solution.predicted_memory > 0)
+        stats["predicted_memory_bytes"] = solution.predicted_memory;
     stats["energy"] = energy(solution.energy);
     // Of one group alone nothing is known: null rather than a number that nobody has measured.
     stats["groups"] = solution.groups;

@@ -69,7 +69,8 @@ double usual_luminance(const Patches& patches, const Solution& solution) {
         if (const double l = reflected(p); l > 0)
             light += patches.area[p] * l, lit += patches.area[p];
     }
-    // What is all but dark has no say: the outer sides of walls, where a crack lets a glint through.
+    // What is all but dark has no say: the outer sides of walls, where a crack lets a glint
+    // through.
     const double dark = lit > 0 ? 1e-3 * light / lit : 0;
     double sum = 0, area = 0;
     for (std::size_t p = 0; p < patches.count(); ++p) {

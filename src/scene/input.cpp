@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "parallux/error.h"
@@ -100,7 +101,12 @@ std::string read_file(const std::filesystem::path& file, std::uint64_t limit) {
                     std::to_string(size) + " bytes, more than the " + std::to_string(limit) +
                         " allowed here; split it");
     std::ifstream stream(file, std::ios::binary);
-    std::string bytes(size, '\0');
+    std::string bytes;
+    try {
+        bytes.resize(size);
+    } catch (const std::bad_alloc&) {
+        throw Error(Fault::memory, printable(file.string(), 400) + ": too large for this machine");
+    }
     if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(size)))
         input_error(file, "", "cannot be read; check its permissions");
     return bytes;

@@ -72,14 +72,14 @@ void read_any(SceneBuilder& builder, std::string bytes) {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings) {
+Scene scene_of(const std::filesystem::path& file, std::string bytes, const LoadSettings& settings) {
     if (!(settings.scale > 0 && settings.scale <= 1e15))
         throw Error(Fault::usage, "the scale of a scene must be more than 0");
     Scene scene;
     scene.file = file;
     SceneBuilder builder(scene, settings);
     try {
-        read_any(builder, read_file(file));
+        read_any(builder, std::move(bytes));
     } catch (const std::bad_alloc&) {
         throw Error(Fault::memory, printable(file.string(), 400) + ": too large for this machine");
     }
@@ -103,6 +103,10 @@ Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings
                                  std::to_string(scene.triangles) +
                                  " triangles have no area and are left out");
     return scene;
+}
+
+Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings) {
+    return scene_of(file, read_file(file), settings);
 }
 
 std::string name_or(const std::string& name, const std::string& otherwise) {

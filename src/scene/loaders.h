@@ -15,6 +15,9 @@ void read_obj(SceneBuilder& builder, const std::string& bytes);
 void read_stl(SceneBuilder& builder, const std::string& bytes);
 void read_parallux(SceneBuilder& builder, const Json& json);
 
+/// load_scene() of a file that has these bytes.
+Scene scene_of(const std::filesystem::path& file, std::string bytes, const LoadSettings& settings);
+
 bool looks_like_stl(const std::string& bytes);
 
 /// A name that a file gives, fit for tables and messages; `otherwise` where it gives none.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "solve/checkpoint_fields.h"
 
@@ -10,6 +11,49 @@ namespace {
 template <class Row>
 bool all_or_none(const Row& row, std::size_t size) {
     return row.empty() || row.size() == size;
+}
+
+// quantum() makes all power of a run 2^60 quanta at most: sums and differences of a few such rows
+// are 64 bit numbers.
+constexpr double most_quanta = 0x1p61;
+
+template <class Row>
+double quanta_in(const Row& row) {
+    double sum = 0;
+    for (const std::int64_t value : row)
+        sum += std::fabs(static_cast<double>(value));
+    return sum;
+}
+
+// Of what arrives at patches, W/m² a band.
+double quanta_in(const std::vector<float>& row, const Patches& patches, double watts_per_quantum) {
+    double sum = 0;
+    for (std::size_t k = 0; k < row.size(); ++k)
+        sum += std::fabs(row[k]) * patches.area[k / patches.bands] / watts_per_quantum;
+    return sum;
+}
+
+bool few_quanta(const RunState& run, const Patches& patches) {
+    const DirectLight& direct = run.group.direct;
+    const TransferState& state = run.group.state;
+    // One of the state's is a whole number of the plan's.
+    const double unit = state.bands ? state.watts_per_quantum / run.plan.watts_per_quantum : 1;
+    if (!(unit >= 1 && unit <= most_quanta) || unit != std::floor(unit))
+        return false;
+    double most = 0;
+    for (const auto* totals : {&direct.emitted, &direct.absorbed, &direct.escaped, &direct.unshot})
+        most = std::max(most, quanta_in(*totals));
+    most = std::max(most, quanta_in(direct.shot));
+    for (const auto* row : {&direct.irradiance, &direct.exitance})
+        most = std::max(most, quanta_in(*row, patches, run.plan.watts_per_quantum));
+    for (const auto* totals :
+         {&state.sent, &state.sky, &state.emitted, &state.absorbed, &state.escaped})
+        most = std::max(most, unit * quanta_in(*totals));
+    for (const Bank& bank : run.banks.banks())
+        most = std::max(most, unit * quanta_in(bank.received));
+    for (const WorkerTotals& totals : run.banks.all_totals())
+        most = std::max({most, unit * quanta_in(totals.sky), unit * quanta_in(totals.escaped)});
+    return most <= most_quanta;
 }
 
 bool sound(const DirectLight& direct, const Group& group, const Patches& patches) {
@@ -67,7 +111,7 @@ bool sound(const RunState& run, const Patches& patches) {
             (k > 0 && group.small[k].patch <= group.small[k - 1].patch))
             return false;
     return sound(group.direct, group, patches) && sound(group.state, group, patches) &&
-           sound(group.pass, group, run.plan, patches);
+           sound(group.pass, group, run.plan, patches) && few_quanta(run, patches);
 }
 
 }  // namespace parallux

@@ -99,6 +99,9 @@ Emitters emitters_of(const Scene& scene, const Patches& patches,
 
 std::vector<Emitter> all_cells(const Scene& scene, const Patches& patches) {
     std::vector<Emitter> cells;
+    std::size_t count = 0;
+    for_all_cells(scene, patches, [&](const Emitter&, double) { ++count; });
+    cells.reserve(count);
     for_all_cells(scene, patches, [&](const Emitter& cell, double) { cells.push_back(cell); });
     return cells;
 }

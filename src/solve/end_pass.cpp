@@ -32,14 +32,23 @@ Balance balance_of(const Run& run, const DirectLight& direct, const TransferStat
     const std::vector<std::int64_t> unshot = unshot_of(run, state);
     const auto unit =
         static_cast<std::int64_t>(state.watts_per_quantum / run.plan.watts_per_quantum);
+    // Modulo 2^64, which no run comes near: a checkpoint may be made up.
+    auto all = [&](std::int64_t shot, std::int64_t passed) {
+        return static_cast<std::int64_t>(static_cast<std::uint64_t>(shot) +
+                                         static_cast<std::uint64_t>(unit) *
+                                             static_cast<std::uint64_t>(passed));
+    };
     for (std::uint32_t band = 0; band < state.bands; ++band) {
-        balance.emitted.push_back(direct.emitted[band] + unit * state.sky[band]);
-        balance.absorbed.push_back(direct.absorbed[band] + unit * state.absorbed[band]);
-        balance.escaped.push_back(direct.escaped[band] + unit * state.escaped[band]);
+        balance.emitted.push_back(all(direct.emitted[band], state.sky[band]));
+        balance.absorbed.push_back(all(direct.absorbed[band], state.absorbed[band]));
+        balance.escaped.push_back(all(direct.escaped[band], state.escaped[band]));
         // Power that the pass was to send but did not waits like all unshot energy.
-        balance.unshot.push_back(direct.unshot[band] + unit * (unshot[band] - state.emitted[band]));
-        balance.residual.push_back(balance.emitted[band] - balance.absorbed[band] -
-                                   balance.escaped[band] - balance.unshot[band]);
+        balance.unshot.push_back(all(direct.unshot[band], unshot[band] - state.emitted[band]));
+        balance.residual.push_back(
+            static_cast<std::int64_t>(static_cast<std::uint64_t>(balance.emitted[band]) -
+                                      static_cast<std::uint64_t>(balance.absorbed[band]) -
+                                      static_cast<std::uint64_t>(balance.escaped[band]) -
+                                      static_cast<std::uint64_t>(balance.unshot[band])));
     }
     return balance;
 }

@@ -236,14 +236,23 @@ Solution Estimate::solution(const Plan& plan) {
     solution.bands = patches_.bands;
     solution.irradiance = std::move(irradiance_);
     solution.radiosity.resize(solution.irradiance.size());
-    parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     for (std::size_t k = begin; k < end; ++k)
-                         solution.radiosity[k] = static_cast<float>(
-                             patches_.emission[k] + scattered(patches_, k, [&](std::size_t at) {
-                                 return solution.irradiance[at];
-                             }));
-                 });
+    auto for_all = [&](auto&& set) {
+        parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
+                     [&](std::size_t begin, std::size_t end, unsigned) {
+                         for (std::size_t k = begin; k < end; ++k)
+                             set(k);
+                     });
+    };
+    // A patch may send more than it has and then send a debt: few lines may bring less than
+    // nothing. Nothing is nearer to the truth.
+    for_all(
+        [&](std::size_t k) { solution.irradiance[k] = std::max(0.0f, solution.irradiance[k]); });
+    for_all([&](std::size_t k) {
+        solution.radiosity[k] =
+            static_cast<float>(patches_.emission[k] + scattered(patches_, k, [&](std::size_t at) {
+                                   return solution.irradiance[at];
+                               }));
+    });
     solution.hash = hash_of(solution);
     // The groups' quanta together stand for one run.
     solution.energy.watts_per_quantum /= groups_;

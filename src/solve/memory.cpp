@@ -12,7 +12,10 @@
 #include "solve/checkpoint.h"
 #include "solve/emitters.h"
 #include "solve/keeping.h"
+#include "solve/plan_lines.h"
 #include "solve/plan_shots.h"
+#include "solve/shot_exact.h"
+#include "solve/sources.h"
 #include "transfer/banks.h"
 #include "transfer/partition.h"
 
@@ -25,6 +28,18 @@ std::uint64_t machine_memory() {
            static_cast<std::uint64_t>(sysconf(_SC_PAGE_SIZE));
 }
 
+// How many groups there will be, and how direct light will be found.
+Plan planned(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
+    Plan plan;
+    plan.sphere = line_sphere(scene, settings.sphere_radius);
+    plan_lines(patches, settings, plan);
+    SolveSettings shots = settings;
+    if (is_periodic(scene))
+        shots.first_shot = FirstShot::off;
+    plan_shots(scene, patches, shots, plan);
+    return plan;
+}
+
 // Bytes of the stages that follow one another, and what they all work on.
 struct Footprint {
     const Scene& scene;
@@ -35,6 +50,8 @@ struct Footprint {
     unsigned threads = thread_count(settings.threads);
     unsigned banks = Banks::count(count, bands, threads, bank_limit(settings));
     bool local = needs_rays(scene, patches, settings);
+    Plan plan = planned(scene, patches, settings);
+    bool exact = local && plan.first_shot == FirstShot::exact;
 
     // The program with its libraries; surfaces as read, and the ray tracer's own copy of them with
     // its tree.
@@ -51,38 +68,49 @@ struct Footprint {
     }
     // Mean and spread of the groups before.
     std::uint64_t groups() const {
-        const bool several = settings.method == Method::bundles && settings.groups != 1;
-        return several ? count * (bands * 8 + 8) : 0;
+        if (plan.groups == 1 && settings.target_error <= 0)
+            return 0;
+        // Freed arrays of less than 32 MiB may lie between others, and stay with the process.
+        const std::uint64_t between = std::min(count * 16, std::uint64_t(32) << 20);
+        return count * (bands * 8 + 8) + between;
     }
     // A checkpoint lies in memory while it is written, or read.
     std::uint64_t checkpoint() const {
         return settings.checkpoints.any() ? checkpoint_bytes(count, bands) : 0;
     }
-    // The cells that send, with their power.
+    // All cells, and what each source sees of them, from the beginning to the end.
+    std::uint64_t views() const {
+        const std::uint64_t a_view = ExactShot::bytes_a_cell();
+        return exact ? count * (sizeof(Emitter) + count_sources(scene, patches) * a_view) : 0;
+    }
+    // The cells that send, with their power and that of their rays, and of exact shots one view
+    // more while it is made.
     std::uint64_t first_shot() const {
         std::uint64_t cells = 0;
         for (std::size_t patch = 0; local && patch < count; ++patch)
             cells += std::any_of(&patches.emission[patch * bands],
                                  &patches.emission[patch * bands] + bands,
                                  [](float emission) { return emission > 0; });
-        bool all = settings.shots > 0 || settings.method == Method::progressive ||
-                   settings.method == Method::particles || settings.first_shot == FirstShot::exact;
-        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 8 + 8) +
-               (all ? count * (100 + bands * 12) : 0);
+        const bool all = settings.shots > 0 || settings.method == Method::progressive ||
+                         settings.method == Method::particles;
+        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 16 + 12) +
+               (all ? count * (100 + bands * 12) : 0) +
+               (exact ? views() + count * ExactShot::bytes_a_cell() : 0);
     }
     // What was sent, what exits carry, pairs on their way, and those kept. A projection holds
     // corners, and each surface in a tile or two.
     std::uint64_t pass() const {
         std::uint64_t projections = settings.method == Method::bundles ? 16 : 0;
-        return all_banks() + direct() + groups() + count * (bands * 8 + lanes(bands) * 4) +
-               keeping_bytes(count, bands) + (banks < threads ? Partition::bytes(threads) : 0) +
+        return all_banks() + direct() + groups() + views() +
+               count * (bands * 8 + lanes(bands) * 4) + keeping_bytes(count, bands) +
+               (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
                (banks < threads ? 1 : threads) * copies_bytes(scene) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
     // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.
     std::uint64_t gather() const {
-        return all_banks() + direct() + groups() + count * (bands * 4 + 8) +
+        return all_banks() + direct() + groups() + views() + count * (bands * 4 + 8) +
                count * std::max(lanes(bands) * 4, bands * 4);
     }
 };

@@ -56,7 +56,13 @@ ExactShot::View ExactShot::view_of(std::size_t source) {
             look(source, k * cells_a_chunk, std::min((k + 1) * cells_a_chunk, cells().size()),
                  chunks[k]);
     });
+    // Count first: arrays that grow take twice the memory.
     View view;
+    std::size_t cells_seen = 0, pairs = 0;
+    for (const Chunk& chunk : chunks)
+        cells_seen += chunk.seen.size(), pairs += chunk.pairs.size();
+    view.seen.reserve(cells_seen);
+    view.pairs.reserve(pairs);
     for (Chunk& chunk : chunks) {
         view.seen.insert(view.seen.end(), chunk.seen.begin(), chunk.seen.end());
         for (Pair& pair : chunk.pairs) {

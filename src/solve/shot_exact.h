@@ -23,6 +23,9 @@ public:
     /// Up to so many surfaces, what is hidden is cut away in closed form.
     static constexpr std::size_t few_surfaces = 256;
 
+    /// Of what a source sees, about; with a few surfaces between.
+    static constexpr std::uint64_t bytes_a_cell() { return sizeof(Pair) + 4; }
+
     /// All cells of the scene; shots from one patch after the other share them.
     using Cells = std::shared_ptr<const std::vector<Emitter>>;
 

@@ -50,6 +50,7 @@ RayQuanta ray_quanta(const Emitters& emitters, std::uint64_t rays) {
             quanta.each.insert(quanta.each.end(), each.begin(), each.end());
         return quanta;
     }
+    quanta.each.reserve(emitters.power.size());  // an array that grows takes twice the memory
     for (std::size_t piece = 0; piece < emitters.pieces.size(); ++piece) {
         double sum = 0;
         for (std::uint32_t band = 0; band < bands; ++band)

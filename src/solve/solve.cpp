@@ -160,6 +160,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
         solution.warnings.push_back(tilted);
     seconds.gather += watch.lap();
     solution.seconds = seconds;
+    solution.predicted_memory = predicted_memory(scene, patches, settings);
     return solution;
 }
 

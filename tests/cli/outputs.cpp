@@ -73,6 +73,7 @@ TEST_CASE("table and statistics have exactly the promised columns and keys") {
                                                      "seconds",
                                                      "lines_per_second",
                                                      "peak_memory_bytes",
+                                                     "predicted_memory_bytes",
                                                      "energy",
                                                      "groups",
                                                      "error",

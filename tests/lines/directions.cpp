@@ -15,7 +15,7 @@ namespace {
 // error: directions drawn a little towards the equator.
 double uniformity(double squeeze) {
     constexpr int n = 100;
-    constexpr int draws = 4'000'000;
+    constexpr int draws = 10'000'000;
     std::vector<double> cells(n * n, 0);
     Random random(7, 1);
     for (int k = 0; k < draws; ++k) {

@@ -1,0 +1,171 @@
+#include <vector>
+
+#include "lines/edge_walk.h"
+#include "lines/ray_scene.h"
+#include "made_scene.h"
+#include "parallux/patches.h"
+
+// The projector on surfaces of every kind: parity of closed solids, order of hits, the pairs that
+// both its ways give, and the tracer's hits on the same lines.
+
+using namespace parallux;
+using fuzz::require;
+
+namespace {
+
+struct Line {
+    glm::dvec3 origin;
+    double x, y;  // across, in spacings
+};
+
+// Everything that is judged of one bundle.
+class Judge {
+public:
+    Judge(const Scene& scene, const Patches& patches, const Bundle& bundle, bool closed)
+        : scene_(scene),
+          projector_(scene, patches),
+          layered_(scene, patches, Projector::Surfaces::many),
+          rays_(scene, 1),
+          bundle_(bundle),
+          closed_(closed) {}
+
+    void judge() {
+        auto workspace = projector_.make_workspace(), other = layered_.make_workspace();
+        Projection projection, layers;
+        projector_.project(bundle_, projection);
+        layered_.project(bundle_, layers);
+        IntersectionLists lists;
+        for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
+            projector_.lists(projection, tile, *workspace, lists);
+            TilePairs expected, painted, sorted;
+            append_pairs(lists, expected);
+            projector_.pairs(projection, tile, *workspace, painted);
+            layered_.pairs(layers, tile, *other, sorted);
+            same(expected, painted);
+            same(expected, sorted);
+            for (std::size_t k = 0; k < lists.lines(); ++k)
+                judge_line(line(projection, tile, k), lists.hits.data() + lists.start[k],
+                           lists.start[k + 1] - lists.start[k]);
+        }
+    }
+
+private:
+    static std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted_pairs(
+        const TilePairs& pairs) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
+        for (std::size_t k = 0; k < pairs.from.count; ++k)
+            all.emplace_back(pairs.from.ids[k], pairs.to.ids[k]);
+        for (const auto* list : {&pairs.first, &pairs.last, &pairs.into_backs, &pairs.from_backs}) {
+            const std::size_t begin = all.size();
+            for (std::size_t k = 0; k < list->count; ++k)
+                all.emplace_back(list->ids[k], none);
+            std::sort(all.begin() + begin, all.end());
+        }
+        std::sort(all.begin(), all.begin() + pairs.from.count);
+        return all;
+    }
+
+    static void same(const TilePairs& a, const TilePairs& b) {
+        require(a.hits == b.hits, "as many hits in lists and pairs");
+        require(a.nonempty == b.nonempty && a.odd == b.odd, "the same counts in lists and pairs");
+        require(sorted_pairs(a) == sorted_pairs(b), "the same pairs from lists and pairs");
+    }
+
+    Line line(const Projection& projection, std::size_t tile, std::size_t k) const {
+        const std::int32_t left =
+            projection.left + std::int32_t(tile % projection.tiles_x) * projection.tile_columns;
+        const std::int32_t top =
+            projection.top + std::int32_t(tile / projection.tiles_x) * projection.tile_rows;
+        const std::int32_t columns =
+            std::min(projection.tile_columns, projection.left + projection.columns - left);
+        Line line;
+        line.x = left + double(std::int32_t(k) % columns) - bundle_.offset_x;
+        line.y = top + double(std::int32_t(k) / columns) - bundle_.offset_y;
+        line.origin = projector_.centre() +
+                      bundle_.spacing * (line.x * bundle_.x + line.y * bundle_.y) -
+                      2.0 * projector_.radius() * bundle_.direction;
+        return line;
+    }
+
+    // In spacings, from a line to the nearest edge of a surface as the bundle sees it.
+    double to_edge(const Line& line) const {
+        double nearest = 1e300;
+        auto across = [&](std::uint32_t corner) {
+            const glm::dvec3 p = (scene_.positions[corner] - projector_.centre()) / bundle_.spacing;
+            return glm::dvec2(glm::dot(p, bundle_.x), glm::dot(p, bundle_.y));
+        };
+        for (const Surface& surface : scene_.surfaces) {
+            const int corners = surface.shape() == Shape::triangle ? 3 : 4;
+            for (int k = 0; k < corners; ++k) {
+                const glm::dvec2 a = across(surface.corner[k]),
+                                 b = across(surface.corner[(k + 1) % corners]) - a;
+                const glm::dvec2 p = glm::dvec2(line.x, line.y) - a;
+                const double t =
+                    std::clamp(glm::dot(p, b) / std::max(glm::dot(b, b), 1e-300), 0.0, 1.0);
+                nearest = std::min(nearest, glm::length(p - t * b));
+            }
+        }
+        return nearest;
+    }
+
+    // How far snapping and rounding may move a surface's depth, metres.
+    double slack(std::uint32_t surface) const {
+        const double cosine =
+            std::abs(glm::dot(surface_normal(scene_, scene_.surfaces[surface]), bundle_.direction));
+        return 2 * bundle_.spacing / fixed_one / std::max(cosine, 1e-9) +
+               1e-5 * projector_.radius();
+    }
+
+    void judge_line(const Line& line, const Hit* hits, std::size_t count) {
+        if (closed_)
+            require(count % 2 == 0, "an even number of hits in closed solids");
+        for (std::size_t k = 1; k < count; ++k)
+            require(hits[k].depth >=
+                        hits[k - 1].depth - (slack(hits[k].surface) + slack(hits[k - 1].surface)) /
+                                                projector_.radius(),
+                    "hits by depth");
+        if (to_edge(line) < 2.0 / fixed_one + 1e-4 * projector_.radius() / bundle_.spacing)
+            return;
+        rays_.all(line.origin, bundle_.direction, 10 * projector_.radius(), traced_);
+        require(traced_.size() == count, "as many hits as the tracer, away from edges");
+        // The same surfaces; depths place by place, by which near ones may change places.
+        std::vector<std::uint32_t> a, b;
+        for (std::size_t k = 0; k < count; ++k) {
+            a.push_back(hits[k].surface);
+            b.push_back(traced_[k].surface);
+        }
+        for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t j = 0; j < count; ++j)
+                if (a[k] == b[j])
+                    require(std::abs((hits[k].depth + 2) * projector_.radius() - traced_[j].t) <=
+                                slack(a[k]),
+                            "depths as the tracer's");
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        require(a == b, "the same surfaces as the tracer, away from edges");
+    }
+
+    const Scene& scene_;
+    Projector projector_, layered_;
+    RayScene rays_;
+    Bundle bundle_;
+    bool closed_;
+    std::vector<SurfaceHit> traced_;
+};
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    fuzz::Bytes bytes(data, size);
+    const unsigned kind = bytes.byte();
+    const double spacings[4] = {0.25, 0.125, 0.07, 0.03};
+    const Bundle bundle = fuzz::bundle(bytes, spacings[kind / 4 % 4]);
+    Scene scene = fuzz::solids(bytes);
+    const bool closed = kind % 2 == 0;
+    if (!closed)
+        fuzz::add_sheets(scene, bytes, 1 + bytes.below(8));
+    if (scene.surfaces.empty())
+        return 0;
+    Judge(scene, make_patches(scene), bundle, closed).judge();
+    return 0;
+}
