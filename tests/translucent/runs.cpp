@@ -4,8 +4,11 @@
 
 #include <Eigen/LU>
 
-#include "parallux/predict.h"
+#include "../scene/scene_files.h"
+#include "output/bake_values.h"
+#include "parallux/picture.h"
 #include "parallux/result.h"
+#include "parallux/thermal.h"
 #include "random.h"
 #include "solve/follow_through.h"
 #include "support/seeds.h"
@@ -154,4 +157,57 @@ TEST_CASE("a scene's hash knows what lets light through") {
     const Patches opaque = make_patches(chambers(grey(0.5), grey(0.6), leaf(0.1, 0), 1));
     CHECK(!opaque.translucent());
     CHECK(opaque.other.empty());
+}
+
+// The two furnaces again: 3 W/m² above the plate, 1 below. Planted, seen to fail: pictures and
+// bakes of E + ρ H alone.
+TEST_CASE("pictures and bakes show what comes through") {
+    const Scene scene = chambers(grey(0.6, 0.4), grey(0.5, 1.5), leaf(0.7, 0.1, 0.2, 0.4, 0.5), 2);
+    const Patches patches = make_patches(scene);
+    SolveSettings settings;
+    settings.bundles = 256;
+    const Solution solution = solve(scene, patches, settings);
+    for (bool flat : {false, true})
+        for (bool back : {false, true}) {
+            const double expected = back ? 1 : 3;
+            PictureSettings look;
+            look.width = look.height = 2;
+            look.flat = flat;
+            Camera camera;
+            camera.position = {0.5, 0.5, back ? 0.1 : 1.9};
+            camera.forward = {0, 0, back ? 1 : -1};
+            camera.up = {0, 1, 0};
+            camera.vertical_fov = 0.2;
+            const Picture picture = render(scene, patches, solution, camera, look);
+            CHECK(picture.radiance[0] * pi == doctest::Approx(expected).epsilon(1e-3));
+            BakeSettings baking;
+            baking.flat = flat;
+            float value = 0;
+            BakeValues(scene, patches, solution, baking).at(9, back, 0.3, 0.4, &value);
+            CHECK(value == doctest::Approx(expected).epsilon(1e-3));
+        }
+}
+
+// All at 300 K: everything glows with σ T⁴, and nothing loses any. Planted, seen to fail: an
+// emissivity of 1 - ρ.
+TEST_CASE("where all have one temperature, leaves have no net flux") {
+    TestFolder folder;
+    Scene scene = chambers(grey(0.2), grey(0.4), leaf(0.3, 0.5), 2);
+    const auto table = folder.write("t.csv", "kind,name,temperature\nall,,300\n");
+    const Temperatures temperatures(table);
+    temperatures.apply(scene, 0);
+    const Patches patches = make_patches(scene);
+    FluxMeter meter(scene, patches, FluxUnit::surface);
+    SolveSettings settings;
+    settings.bundles = 1024;
+    const Solution solution = solve(scene, patches, settings, {}, meter.preview());
+    const Fluxes fluxes = meter.fluxes(solution);
+    REQUIRE(fluxes.rows.size() == 11);
+    CHECK(fluxes.rows[9].absorptance == doctest::Approx(0.2));
+    for (const Flux& row : fluxes.rows) {
+        CHECK(std::fabs(row.net) < 1e-3 * black_body(300));
+        CHECK(row.outgoing == doctest::Approx(black_body(300)).epsilon(1e-3));
+    }
+    Scene unlike = chambers(grey(0.2), grey(0.4), leaf(0.3, 0.5, 0.3, 0.1, 0), 2);
+    CHECK_THROWS_AS(temperatures.apply(unlike, 0), Error);
 }
