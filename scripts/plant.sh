@@ -30,7 +30,8 @@ cmake -S "$copy" -B "$copy/build/release" -G Ninja -DCMAKE_BUILD_TYPE=Release \
 run_test() { # program, case, log
     cmake --build "$copy/build/release" --target "$1" >"$3" 2>&1 ||
         { echo "plant.sh: $1 does not build; see $3" >&2 && exit 1; }
-    "$copy/build/release/tests/$1" --test-case="$2" >>"$3" 2>&1
+    # An error may also keep a test from ending.
+    timeout 600 "$copy/build/release/tests/$1" --test-case="$2" >>"$3" 2>&1
 }
 
 status=0

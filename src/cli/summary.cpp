@@ -115,7 +115,9 @@ void tell_reuse(const SolveOptions& options, const Scene& scene, const Patches& 
 }
 
 void tell_memory(std::uint64_t bytes) {
-    print("memory   " + std::to_string((bytes >> 20) + 1) + " MiB at most, but for outputs\n");
+    // Where nobody can be told, the summary will find out, once the outputs are there.
+    (void)try_print("memory   " + std::to_string((bytes >> 20) + 1) +
+                    " MiB at most, but for outputs\n");
 }
 
 void tell_summary(const SolveOptions& options, const Scene& scene, const Patches& patches,

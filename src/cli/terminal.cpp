@@ -41,8 +41,12 @@ void guard_standard_streams() {
             (void)open("/dev/null", modes[stream]);
 }
 
+int try_print(const std::string& text) {
+    return write_all(STDOUT_FILENO, text);
+}
+
 void print(const std::string& text) {
-    if (int reason = write_all(STDOUT_FILENO, text))
+    if (int reason = try_print(text))
         throw Error(Fault::output,
                     std::string("standard output: cannot write: ") + std::strerror(reason));
 }

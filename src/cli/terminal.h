@@ -15,6 +15,9 @@ void guard_standard_streams();
 /// Writes all of it to standard output; throws Fault::output when it is closed or full.
 void print(const std::string& text);
 
+/// The same, but returns the reason as errno, or 0.
+int try_print(const std::string& text);
+
 /// One line on standard error. Control characters, which names in a scene may hold, are shown as
 /// \xNN: they cannot fake a second line or steer the terminal.
 void complain(const std::string& line);

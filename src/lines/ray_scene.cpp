@@ -158,6 +158,10 @@ RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_uniqu
     data_->device = rtcNewDevice(nullptr);
     if (!data_->device)
         fail("start on this machine", rtcGetDeviceError(nullptr));
+    // The first question makes the place where this thread's errors are kept: a fresh device has no
+    // other error than that there is no memory for it.
+    if (rtcGetDeviceError(data_->device) != RTC_ERROR_NONE)
+        fail("start on this machine", RTC_ERROR_OUT_OF_MEMORY);
     Bounds bounds = scene_bounds(scene);
     data_->centre = 0.5 * (bounds.low + bounds.high);
     data_->scene = rtcNewScene(data_->device);

@@ -80,7 +80,7 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
         name_->taken = false;
         fail(target_, "write");
     }
-    temporary_ = name_->text;
+    // From here on nothing may throw: no destructor would take the file away.
     // An ordinary file's rights, not the private ones of a temporary; an older file keeps its own.
     struct stat old {};
     mode_t mode = 0;
@@ -97,9 +97,13 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0)
         close(descriptor_);
-    if (!temporary_.empty())
-        unlink(temporary_.c_str());
+    if (!committed_)
+        unlink(name_->text);
     name_->taken = false;
+}
+
+std::filesystem::path OutputFile::temporary() const {
+    return name_->text;
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -121,9 +125,9 @@ void OutputFile::commit() {
     descriptor_ = -1;
     if (closed != 0)
         fail(target_, "write");
-    if (rename(temporary_.c_str(), target_.c_str()) != 0)
+    if (rename(name_->text, target_.c_str()) != 0)
         fail(target_, "replace");
-    temporary_.clear();
+    committed_ = true;
     int folder = open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0)
         fail(target_, "save the folder of");

@@ -20,15 +20,16 @@ public:
     void write(std::string_view bytes);
     void commit();
     /// Where the bytes go until commit(), for libraries that want to open a path themselves.
-    const std::filesystem::path& temporary() const { return temporary_; }
+    std::filesystem::path temporary() const;
 
 private:
     friend void remove_temporaries();
     struct Name;
 
-    std::filesystem::path target_, temporary_;
-    Name* name_ = nullptr;  // of the temporary, while there is one
+    std::filesystem::path target_;
+    Name* name_ = nullptr;  // of the temporary
     int descriptor_ = -1;
+    bool committed_ = false;
 };
 
 /// Removes the temporaries of all OutputFiles that there are now: for a signal's handler that ends

@@ -223,16 +223,21 @@ Foresight Estimate::foresight() const {
 }
 
 Solution Estimate::solution(const Plan& plan) {
-    Solution solution = total_;
+    std::vector<float> stderror;
+    Foresight known;
     if (groups_ > 1) {
-        const Foresight known = foresight();
-        solution.relative_rms = known.relative_rms;
-        solution.relative_rms_bound = known.bound();
-        solution.stderror.resize(irradiance_.size());
+        known = foresight();
+        stderror.resize(irradiance_.size());
         for (std::size_t k = 0; k < irradiance_.size(); ++k)
-            solution.stderror[k] = static_cast<float>(deviation(k));
+            stderror[k] = static_cast<float>(deviation(k));
     }
     spread_ = std::vector<float>();
+    Solution solution = std::move(total_);
+    solution.stderror = std::move(stderror);
+    if (groups_ > 1) {
+        solution.relative_rms = known.relative_rms;
+        solution.relative_rms_bound = known.bound();
+    }
     solution.bands = patches_.bands;
     solution.irradiance = std::move(irradiance_);
     solution.radiosity.resize(solution.irradiance.size());

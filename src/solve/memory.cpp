@@ -83,8 +83,8 @@ struct Footprint {
         const std::uint64_t a_view = ExactShot::bytes_a_cell();
         return exact ? count * (sizeof(Emitter) + count_sources(scene, patches) * a_view) : 0;
     }
-    // The cells that send, with their power and that of their rays, and of exact shots one view
-    // more while it is made.
+    // Each patch's region. The cells that send, with their power and that of their rays, and of
+    // exact shots one view more while it is made.
     std::uint64_t first_shot() const {
         std::uint64_t cells = 0;
         for (std::size_t patch = 0; local && patch < count; ++patch)
@@ -93,7 +93,7 @@ struct Footprint {
                                  [](float emission) { return emission > 0; });
         const bool all = settings.shots > 0 || settings.method == Method::progressive ||
                          settings.method == Method::particles;
-        return all_banks() + groups() + cells * (sizeof(Emitter) + bands * 16 + 12) +
+        return all_banks() + groups() + count * 4 + cells * (sizeof(Emitter) + bands * 16 + 12) +
                (all ? count * (100 + bands * 12) : 0) +
                (exact ? views() + count * ExactShot::bytes_a_cell() : 0);
     }
@@ -108,9 +108,10 @@ struct Footprint {
                (banks < threads ? 1 : threads) * copies_bytes(scene) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }
-    // Irradiance and crossings beside what exits carry; radiosity in its place once that is over.
+    // Regions, irradiance and crossings beside what exits carry; radiosity in its place once that
+    // is over.
     std::uint64_t gather() const {
-        return all_banks() + direct() + groups() + views() + count * (bands * 4 + 8) +
+        return all_banks() + direct() + groups() + views() + count * (bands * 4 + 12) +
                count * std::max(lanes(bands) * 4, bands * 4);
     }
 };
@@ -120,8 +121,11 @@ struct Footprint {
 std::uint64_t predicted_memory(const Scene& scene, const Patches& patches,
                                const SolveSettings& settings) {
     const Footprint footprint{scene, patches, settings};
-    return footprint.loaded() + footprint.checkpoint() +
-           std::max({footprint.first_shot(), footprint.pass(), footprint.gather()});
+    const std::uint64_t counted =
+        footprint.loaded() + footprint.checkpoint() +
+        std::max({footprint.first_shot(), footprint.pass(), footprint.gather()});
+    // Small rows that nobody counts, and pieces between.
+    return counted + counted / 32;
 }
 
 std::uint64_t bank_limit(const SolveSettings& settings) {

@@ -32,5 +32,5 @@ try solve scenes/cornell_box.gltf --patches 60 --bundles 32 --threads 2 --image 
 try solve scenes/cornell_box.gltf --patches 60 --bundles 16 --threads 1 --first-shot rays
 try solve scenes/furnace.json --patches 60 --bundles 16 --method lines --threads 1
 try bake "$work/a.plx" scenes/cornell_box.gltf --lightmap "$work/m.exr"
-try factors scenes/cornell_box.gltf --bundles 16 --out "$work/f.mtx"
+try factors scenes/cornell_box.gltf --bundles 16 -o "$work/f.mtx"
 exit $status
