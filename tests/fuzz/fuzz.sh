@@ -3,7 +3,7 @@
 # once as there are processors. Each begins with the corpus in the repository and keeps what is new
 # in build/PRESET/found; a find ends with exit code 1 and leaves the input there. Says how many inputs
 # were run. With RUNS in place of SECONDS (1000000r) each ends after so many inputs. PRESET=fuzz-quick
-# goes without sanitizers, several times faster.
+# goes without sanitizers, several times faster; SEED=N begins with the same inputs every time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -26,7 +26,7 @@ fuzz_one() { # target
     local log=$found/$target.log words=()
     mkdir -p "$found/$target"
     [[ -f tests/fuzz/words/$target ]] && words=("-dict=tests/fuzz/words/$target")
-    nice -n 19 "build/$PRESET/tests/fuzz/fuzz_$target" "${words[@]}" "$LIMIT" \
+    nice -n 19 "build/$PRESET/tests/fuzz/fuzz_$target" "${words[@]}" "$LIMIT" -seed="${SEED:-0}" \
         -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=1024 -max_len=4096 -print_final_stats=1 \
         -artifact_prefix="$found/$target-" "$found/$target" "tests/fuzz/corpus/$target" \
         >"$log" 2>&1 || status=1

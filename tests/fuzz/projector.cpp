@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "lines/edge_walk.h"
@@ -35,40 +38,59 @@ public:
         projector_.project(bundle_, projection);
         layered_.project(bundle_, layers);
         IntersectionLists lists;
+        Total listed, painted, sorted;
         for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
             projector_.lists(projection, tile, *workspace, lists);
-            TilePairs expected, painted, sorted;
-            append_pairs(lists, expected);
-            projector_.pairs(projection, tile, *workspace, painted);
-            layered_.pairs(layers, tile, *other, sorted);
-            same(expected, painted);
-            same(expected, sorted);
+            TilePairs pairs;
+            append_pairs(lists, pairs);
+            listed.add(pairs);
+            painted.add(pairs_of(projector_, projection, tile, *workspace));
             for (std::size_t k = 0; k < lists.lines(); ++k)
                 judge_line(line(projection, tile, k), lists.hits.data() + lists.start[k],
                            lists.start[k + 1] - lists.start[k]);
         }
+        // Its tiles are of another size.
+        for (std::size_t tile = 0; tile < layers.tiles(); ++tile)
+            sorted.add(pairs_of(layered_, layers, tile, *other));
+        same(listed, painted);
+        same(listed, sorted);
     }
 
 private:
-    static std::vector<std::pair<std::uint32_t, std::uint32_t>> sorted_pairs(
-        const TilePairs& pairs) {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
-        for (std::size_t k = 0; k < pairs.from.count; ++k)
-            all.emplace_back(pairs.from.ids[k], pairs.to.ids[k]);
-        for (const auto* list : {&pairs.first, &pairs.last, &pairs.into_backs, &pairs.from_backs}) {
-            const std::size_t begin = all.size();
-            for (std::size_t k = 0; k < list->count; ++k)
-                all.emplace_back(list->ids[k], none);
-            std::sort(all.begin() + begin, all.end());
+    // What all tiles come to.
+    struct Total {
+        std::uint64_t hits = 0, nonempty = 0, odd = 0;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+        std::array<std::vector<std::uint32_t>, 4> ends;
+
+        void add(const TilePairs& tile) {
+            hits += tile.hits, nonempty += tile.nonempty, odd += tile.odd;
+            for (std::size_t k = 0; k < tile.from.count; ++k)
+                pairs.emplace_back(tile.from.ids[k], tile.to.ids[k]);
+            const std::array lists{&tile.first, &tile.last, &tile.into_backs, &tile.from_backs};
+            for (std::size_t end = 0; end < ends.size(); ++end)
+                ends[end].insert(ends[end].end(), lists[end]->ids.begin(),
+                                 lists[end]->ids.begin() + lists[end]->count);
         }
-        std::sort(all.begin(), all.begin() + pairs.from.count);
-        return all;
+        void sort() {
+            std::sort(pairs.begin(), pairs.end());
+            for (std::vector<std::uint32_t>& end : ends)
+                std::sort(end.begin(), end.end());
+        }
+    };
+
+    static TilePairs pairs_of(const Projector& projector, const Projection& projection,
+                              std::size_t tile, Projector::Workspace& workspace) {
+        TilePairs pairs;
+        projector.pairs(projection, tile, workspace, pairs);
+        return pairs;
     }
 
-    static void same(const TilePairs& a, const TilePairs& b) {
+    static void same(Total& a, Total& b) {
+        a.sort(), b.sort();
         require(a.hits == b.hits, "as many hits in lists and pairs");
         require(a.nonempty == b.nonempty && a.odd == b.odd, "the same counts in lists and pairs");
-        require(sorted_pairs(a) == sorted_pairs(b), "the same pairs from lists and pairs");
+        require(a.pairs == b.pairs && a.ends == b.ends, "the same pairs from lists and pairs");
     }
 
     Line line(const Projection& projection, std::size_t tile, std::size_t k) const {
@@ -96,12 +118,16 @@ private:
         };
         for (const Surface& surface : scene_.surfaces) {
             const int corners = surface.shape() == Shape::triangle ? 3 : 4;
+            // Seen edge-on it is a part of a straight line, and the tracer hits it anywhere on
+            // that.
+            const bool edge_on =
+                std::abs(glm::dot(surface_normal(scene_, surface), bundle_.direction)) < 1e-6;
             for (int k = 0; k < corners; ++k) {
                 const glm::dvec2 a = across(surface.corner[k]),
                                  b = across(surface.corner[(k + 1) % corners]) - a;
                 const glm::dvec2 p = glm::dvec2(line.x, line.y) - a;
-                const double t =
-                    std::clamp(glm::dot(p, b) / std::max(glm::dot(b, b), 1e-300), 0.0, 1.0);
+                const double along = glm::dot(p, b) / std::max(glm::dot(b, b), 1e-300);
+                const double t = edge_on ? along : std::clamp(along, 0.0, 1.0);
                 nearest = std::min(nearest, glm::length(p - t * b));
             }
         }
