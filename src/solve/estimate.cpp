@@ -136,8 +136,12 @@ void Estimate::sketch(const std::vector<float>& irradiance, double lines, unsign
     auto add_value = [&](std::size_t k, Sums& sums) {
         if (patches_.emission[k] > 0)
             return;
-        const double value = std::sqrt(patches_.area[k / patches_.bands]) *
-                             scattered(patches_, k, [&](std::size_t at) { return irradiance[at]; });
+        // Bounds keep their last bit where nothing comes through.
+        const double root = std::sqrt(patches_.area[k / patches_.bands]);
+        const double value =
+            patches_.translucent()
+                ? root * scattered(patches_, k, [&](std::size_t at) { return irradiance[at]; })
+                : root * patches_.reflectance[k] * irradiance[k];
         const std::uint64_t signs = mix64(k);
         for (std::size_t row = 0; row < sketch_size; row += 8) {
             const std::array<double, 8>& eight = signs_of_byte[signs >> row & 255];
