@@ -12,13 +12,14 @@
 namespace parallux {
 
 /// Gives a scene's materials the values of a CSV table: `material`, then `reflectance_b` or
-/// `emission_b` or both, b from 0 to K-1 (r, g, b where K is 3); reflectance from 0 to below 1,
-/// emission E in W/m². A listed material has these values alone: its textures and vertex colours
-/// give way, with a warning, and what the table has no columns for stays. The scene has K bands
-/// from then on. What is not listed keeps its values; where K is not the scene's own they must be
-/// the same in all its bands, as must those of lights and sky. `bands`: the K that is asked for;
-/// 0: the table's. Throws Fault::input for damage, names that the scene does not have and values
-/// that are missing, Fault::usage when the table has another number of bands than is asked for.
+/// `emission_b` or both, and `transmittance_b`, `back_reflectance_b`, `back_transmittance_b`, b
+/// from 0 to K-1 (r, g, b where K is 3); reflectance from 0 to below 1, emission E in W/m². A
+/// listed material has these values alone: its textures and vertex colours give way, with a
+/// warning, and what the table has no columns for stays. The scene has K bands from then on. What
+/// is not listed keeps its values; where K is not the scene's own they must be the same in all its
+/// bands, as must those of lights and sky. `bands`: the K that is asked for; 0: the table's. Throws
+/// Fault::input for damage, names that the scene does not have and values that are missing,
+/// Fault::usage when the table has another number of bands than is asked for.
 void set_materials(Scene& scene, const std::filesystem::path& csv, std::uint32_t bands = 0);
 
 /// Solves a scene in so many bands, 1 to 8: its own number, or another where all values are the

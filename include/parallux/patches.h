@@ -29,10 +29,25 @@ struct Patches {
     std::vector<double> area;        ///< m², one a patch and side
     std::vector<float> reflectance;
     std::vector<float> emission;  ///< W/m²
-    std::uint32_t clusters = 0;   ///< patches (cells) shared by more than one surface
-    double size = 0;              ///< the patch side that was aimed at; 0: grids given
+    /// Share of what arrives that leaves from the other side; empty where nothing lets light
+    /// through.
+    std::vector<float> transmittance;
+    std::vector<std::uint32_t> other;  ///< patch of the other side, or none; filled beside those
+    std::uint32_t clusters = 0;        ///< patches (cells) shared by more than one surface
+    double size = 0;                   ///< the patch side that was aimed at; 0: grids given
 
     std::size_t count() const { return area.size(); }
+    bool translucent() const { return !transmittance.empty(); }
+    /// Share of what arrives that leaves again, from either side; k = patch * bands + band.
+    float albedo(std::size_t k) const {
+        return translucent() ? reflectance[k] + transmittance[k] : reflectance[k];
+    }
+    /// The same band of the other side, or no_side; only where translucent().
+    std::size_t across(std::size_t k) const {
+        const std::uint32_t side = other[k / bands];
+        return side == none ? no_side : side * std::size_t(bands) + k % bands;
+    }
+    static constexpr std::size_t no_side = ~std::size_t(0);
 };
 
 struct PatchSettings {

@@ -35,6 +35,17 @@ struct Material {
     std::uint32_t reflectance_uv = 0;          ///< which texture coordinate set: 0 or 1
     std::uint32_t emission_uv = 0;
     bool two_sided = false;  ///< two patches a cell, one a side; else the back is inert
+    /// τ, what leaves from the other side of what arrives on the front; ρ + τ < 1, and 0 unless
+    /// two-sided. Neither textures nor colours multiply it.
+    Spectrum transmittance;
+    bool own_back = false;  ///< the back has these two values, else the front's
+    Spectrum back_reflectance, back_transmittance;
+
+    const Spectrum& transmittance_of(bool back) const {
+        return back && own_back ? back_transmittance : transmittance;
+    }
+    /// Any side lets light through.
+    bool is_translucent() const;
 };
 
 enum class Shape : std::uint8_t { parallelogram, triangle };
@@ -189,6 +200,8 @@ struct LoadSettings {
 /// naming file and element. Nothing outside the scene's folder is read. Linear in the file.
 ///  sides: glTF by doubleSided; OBJ two-sided, as its winding means nothing; STL one-sided, fronts
 ///  by winding; Parallux by two_sided
+///  transmittance: Parallux by transmittance, glTF by KHR_materials_diffuse_transmission, which
+///  makes a material two-sided; see the README
 ///  sky's up: y in glTF and OBJ, z in STL, as a Parallux scene says
 ///  reflectance 1 (glTF's default) becomes 0.999, with a warning; a picture that is absent or
 ///  broken leaves its factor alone, with a warning
@@ -202,9 +215,10 @@ glm::dvec3 surface_point(const Scene& scene, const Surface& surface, double u, d
 glm::dvec3 surface_normal(const Scene& scene, const Surface& surface);
 /// Area in square metres.
 double surface_area(const Scene& scene, const Surface& surface);
-/// Reflectance and emission at one point: factor × texture × vertex colour. Reflectance is
-/// clamped to [0, 0.999].
-Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v);
+/// Reflectance of a side and emission at one point: factor × texture × vertex colour. Reflectance
+/// is clamped to [0, 0.999 - transmittance].
+Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v,
+                             bool back = false);
 Spectrum surface_emission(const Scene& scene, std::uint32_t surface, double u, double v);
 
 /// Irradiance of an unobstructed plane that faces up, from the sky alone; W/m² per band. By

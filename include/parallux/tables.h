@@ -13,7 +13,8 @@ namespace parallux {
 
 /// Writes one row a patch in patch order, 9 significant digits:
 /// patch,surface,name,material,iu,iv,x,y,z,nx,ny,nz,area,side, then per band b
-/// reflectance_b,emission_b,irradiance_b,radiosity_b,stderr_b. `side` is front or back; stderr_b
+/// reflectance_b,emission_b,irradiance_b,radiosity_b,stderr_b, and behind them, where light goes
+/// through surfaces, transmittance_b for each. `side` is front or back; stderr_b
 /// is empty when not estimated. `receivers`: only patches of these surfaces, one entry a surface;
 /// empty: all. The file is whole or untouched; throws Fault::output.
 void write_table(const std::filesystem::path& file, const Scene& scene, const Patches& patches,

@@ -27,10 +27,11 @@ public:
     /// Throws Fault::input naming file and line for damage and temperatures that are none.
     explicit Temperatures(const std::filesystem::path& csv);
 
-    /// Makes the scene one of grey long-wave exchange: one band, of reflectance the first one's, so
-    /// that emissivity ε = 1 - ρ; every surface emits ε σ T⁴ and nothing else does, but for a
-    /// uniform sky of `sky` kelvin. Pictures give way to the factors they multiply, with a warning.
-    /// Throws Fault::input for rows that fit nothing and surfaces without a temperature.
+    /// Makes the scene one of grey long-wave exchange: one band, of reflectance and transmittance
+    /// the first one's, so that emissivity ε = 1 - ρ - τ; every surface emits ε σ T⁴ and nothing
+    /// else does, but for a uniform sky of `sky` kelvin. Pictures give way to the factors they
+    /// multiply, with a warning. Throws Fault::input for rows that fit nothing, surfaces without a
+    /// temperature, and two sides of unlike emissivity.
     void apply(Scene& scene, double sky) const;
     /// Sets the emission of patches that have a row of their own; after apply(Scene).
     void apply(Patches& patches) const;
@@ -46,6 +47,7 @@ private:
     };
 
     std::vector<double> of_surfaces(const Scene& scene) const;
+    float first_band_only(Material& material) const;
     [[noreturn]] void fail(const Row& row, const std::string& what) const;
 
     std::filesystem::path file_;
@@ -59,11 +61,11 @@ enum class FluxUnit { patch, surface, object, material };
 struct Flux {
     std::string name;
     double area = 0;
-    double absorptance = 0;  ///< ε = 1 - ρ
+    double absorptance = 0;  ///< ε = 1 - ρ - τ
     double emission = 0;     ///< ε σ T⁴
     double incoming = 0;     ///< H
-    double outgoing = 0;     ///< J = ε σ T⁴ + ρ H
-    double net = 0;          ///< q = J - H = ε (σ T⁴ - H): what must be supplied to keep T
+    double outgoing = 0;     ///< J = ε σ T⁴ + ρ H, + τ H of the other side
+    double net = 0;          ///< q = ε (σ T⁴ - H): what must be supplied to keep T
     double net_stderr = -1;  ///< -1: not known
 };
 
@@ -99,7 +101,7 @@ private:
     };
 
     void see(const Solution& so_far);
-    double absorptance(std::size_t patch) const { return 1 - double(patches_.reflectance[patch]); }
+    double absorptance(std::size_t patch) const { return 1 - double(patches_.albedo(patch)); }
 
     const Scene& scene_;
     const Patches& patches_;

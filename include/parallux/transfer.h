@@ -7,6 +7,7 @@
 #include "parallux/aligned.h"
 #include "parallux/lines.h"
 #include "parallux/patches.h"
+#include "parallux/scatter.h"
 
 // Stage 5: energy along the lists. All energy is counted in 64-bit integer quanta, so that sums
 // are the same in any order and the balance closes exactly.
@@ -38,7 +39,7 @@ struct Bank {
     AlignedArray<std::int64_t> received;
 };
 
-/// What patches send of their own: quanta * (own + reflectance * direct) with every exit, all run
+/// What patches send of their own: quanta * (own + scattered(direct)) with every exit, all run
 /// long. Arrays hold bands together, W/m²; an empty one is dark. They must outlive their use.
 struct Emission {
     std::span<const float> own;
@@ -49,12 +50,12 @@ struct Emission {
     double of_exit(const Patches& patches, std::size_t k) const {
         double exitance = own.empty() ? 0 : own[k];
         if (!direct.empty())
-            exitance += static_cast<double>(patches.reflectance[k]) * direct[k];
+            exitance += scattered(patches, k, [&](std::size_t at) { return direct[at]; });
         return quanta * exitance;
     }
 };
 
-/// Where the energy is, beside what the banks hold. A patch has llrint(reflectance * received) -
+/// Where the energy is, beside what the banks hold. A patch has scattered_quanta(received) -
 /// sent quanta unshot.
 struct TransferState {
     std::uint32_t bands = 0;

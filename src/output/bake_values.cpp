@@ -45,14 +45,17 @@ void BakeValues::in_cell(std::uint32_t surface, bool back, std::uint32_t cell, d
             values[b] = solution_.irradiance[patch * n + b];
     if (settings_.quantity == Quantity::irradiance)
         return;
-    // B = E + ρ H, and L = B / π. A picture that is kept is left out of ρ.
+    // B = E + ρ H and what comes through, L = B / π. A picture that is kept is left out of ρ; it
+    // lies over all that a viewer shows, so that what lets light through keeps none.
     const bool kept = keeps_picture(scene_, settings_, scene_.surfaces[surface].material);
     const Spectrum rho = kept ? plain_reflectance(scene_, surface, u, v)
-                              : surface_reflectance(scene_, surface, u, v);
+                              : surface_reflectance(scene_, surface, u, v, back);
     const Spectrum emission = surface_emission(scene_, surface, u, v);
+    const Spectrum through =
+        field_ ? field_->coming_through(surface, back, cell, u, v) : Spectrum{};
     for (std::uint32_t b = 0; b < n; ++b) {
-        values[b] =
-            field_ || kept ? emission[b] + rho[b] * values[b] : solution_.radiosity[patch * n + b];
+        values[b] = field_ || kept ? emission[b] + rho[b] * values[b] + through[b]
+                                   : solution_.radiosity[patch * n + b];
         if (settings_.quantity == Quantity::radiance)
             values[b] = static_cast<float>(values[b] / pi);
         if (!std::isfinite(values[b]))
@@ -72,7 +75,8 @@ void BakeValues::at(std::uint32_t surface, bool back, double u, double v, float*
 bool keeps_picture(const Scene& scene, const BakeSettings& settings, std::uint32_t material) {
     const Material& m = scene.materials[material];
     return settings.textures && settings.quantity != Quantity::irradiance && scene.bands == 3 &&
-           m.reflectance_texture != none && m.reflectance_uv == 0 && m.emission == Spectrum{};
+           m.reflectance_texture != none && m.reflectance_uv == 0 && m.emission == Spectrum{} &&
+           !m.is_translucent() && !m.own_back;
 }
 
 glm::vec3 colour_of(const float* values, std::uint32_t bands) {

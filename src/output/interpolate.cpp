@@ -276,4 +276,24 @@ void Interpolation::in_cell(std::uint32_t surface, bool back, std::uint32_t cell
     }
 }
 
+Spectrum Interpolation::coming_through(std::uint32_t surface, bool back, double u, double v) const {
+    const SurfaceGrid& grid = patches_.grids[surface];
+    return coming_through(surface, back,
+                          cell_at(scene_.surfaces[surface].shape(), grid.nu, grid.nv,
+                                  static_cast<float>(u), static_cast<float>(v)),
+                          u, v);
+}
+
+Spectrum Interpolation::coming_through(std::uint32_t surface, bool back, std::uint32_t cell,
+                                       double u, double v) const {
+    Spectrum through = scene_.materials[scene_.surfaces[surface].material].transmittance_of(!back);
+    if (patches_.grids[surface].back == none || through == Spectrum{})
+        return {};
+    Spectrum arriving;
+    in_cell(surface, !back, cell, u, v, arriving.value.data());
+    for (std::uint32_t band = 0; band < bands_; ++band)
+        through[band] *= arriving[band];
+    return through;
+}
+
 }  // namespace parallux

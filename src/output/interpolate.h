@@ -31,6 +31,12 @@ public:
     void in_cell(std::uint32_t surface, bool back, std::uint32_t cell, double u, double v,
                  float* irradiance) const;
 
+    /// τ H of the other side: what comes through at a surface's point to leave from this one; 0
+    /// where it lets nothing through.
+    Spectrum coming_through(std::uint32_t surface, bool back, double u, double v) const;
+    Spectrum coming_through(std::uint32_t surface, bool back, std::uint32_t cell, double u,
+                            double v) const;
+
 private:
     void drop_unseen(std::uint32_t surface, bool back, double u, double v,
                      const CellCorners& corners, std::array<double, 4>& weight) const;

@@ -62,12 +62,13 @@ struct PixelSums {
     double met = 0, display_weight = 0;
 };
 
-// π L per band: B = E + ρ H.
+// L = B / π per band: B = E + ρ H and what comes through.
 Spectrum radiance_of(const Spectrum& emission, const Spectrum& reflectance,
-                     const Spectrum& irradiance) {
+                     const Spectrum& irradiance, const Spectrum& through) {
     Spectrum radiance;
     for (std::size_t b = 0; b < max_bands; ++b)
-        radiance[b] = static_cast<float>((emission[b] + reflectance[b] * irradiance[b]) / pi);
+        radiance[b] =
+            static_cast<float>((emission[b] + reflectance[b] * irradiance[b] + through[b]) / pi);
     return radiance;
 }
 
@@ -140,7 +141,7 @@ private:
         sight.patch = (hit.back ? grid.back : grid.front) +
                       cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v);
         sight.normal = surface_normal(scene_, surface) * (hit.back ? -1.0 : 1.0);
-        sight.albedo = surface_reflectance(scene_, hit.surface, hit.u, hit.v);
+        sight.albedo = surface_reflectance(scene_, hit.surface, hit.u, hit.v, hit.back);
         const std::uint32_t bands = solution_.bands;
         if (settings_.flat) {
             for (std::uint32_t b = 0; b < bands; ++b) {
@@ -152,7 +153,8 @@ private:
         }
         field_.at(hit.surface, hit.back, hit.u, hit.v, sight.irradiance.value.data());
         sight.radiance = radiance_of(surface_emission(scene_, hit.surface, hit.u, hit.v),
-                                     sight.albedo, sight.irradiance);
+                                     sight.albedo, sight.irradiance,
+                                     field_.coming_through(hit.surface, hit.back, hit.u, hit.v));
         return sight;
     }
 

@@ -47,6 +47,9 @@ private:
     void one(const Material& m) {
         add(m.name, m.reflectance, m.emission, m.reflectance_texture, m.emission_texture,
             m.reflectance_uv, m.emission_uv, m.two_sided);
+        // Other scenes keep the hashes that they had before there was transmittance.
+        if (m.own_back || m.is_translucent())
+            add(m.own_back, m.transmittance, m.back_reflectance, m.back_transmittance);
     }
     void one(const Light& l) {
         add(l.kind, l.position, l.direction, l.intensity, l.inner_cone, l.outer_cone, l.range,
@@ -68,6 +71,8 @@ std::uint64_t scene_hash(const Scene& scene, const Patches& patches) {
     sum.add(scene.bands, scene.positions, scene.surfaces, scene.attributes, scene.materials,
             scene.objects, scene.textures, scene.lights, scene.sky, scene.period);
     sum.add(patches.bands, patches.grids, patches.area, patches.reflectance, patches.emission);
+    if (patches.translucent())
+        sum.add(patches.transmittance, patches.other);
     return sum.value();
 }
 

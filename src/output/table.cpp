@@ -35,7 +35,7 @@ void write_table(const std::filesystem::path& file, const Scene& scene, const Pa
     std::string text;
     Row row(text);
     std::vector<PatchPlace> places;
-    for (const std::string& name : table_columns(solution.bands))
+    for (const std::string& name : table_columns(solution.bands, patches.translucent()))
         row.word(name);
     row.end();
     for (std::size_t patch = 0; patch < patches.count(); ++patch) {
@@ -58,6 +58,8 @@ void write_table(const std::filesystem::path& file, const Scene& scene, const Pa
             row.number(solution.irradiance[i]).number(solution.radiosity[i]);
             estimated ? row.number(solution.stderror[i]) : row.word("");
         }
+        for (std::size_t i = patch * bands; patches.translucent() && i < (patch + 1) * bands; ++i)
+            row.number(patches.transmittance[i]);
         row.end();
         if (text.size() >= chunk) {
             output.write(text);

@@ -79,9 +79,11 @@ void TableReader::read_header() {
     if (!read_record())
         fail("the file is empty");
     std::size_t per_band = fields_.size() > place_columns ? fields_.size() - place_columns : 0;
-    bands_ = static_cast<std::uint32_t>(per_band / columns_per_band);
-    if (per_band % columns_per_band != 0 || bands_ < 1 || bands_ > max_bands ||
-        fields_ != table_columns(bands_))
+    const bool translucent = fields_.back().rfind("transmittance_", 0) == 0;
+    const std::size_t columns = columns_per_band + (translucent ? 1 : 0);
+    bands_ = static_cast<std::uint32_t>(per_band / columns);
+    if (per_band % columns != 0 || bands_ < 1 || bands_ > max_bands ||
+        fields_ != table_columns(bands_, translucent))
         fail("not the header of a table of patches; write one with --table");
     names_ = fields_;
     radiosity_.resize(bands_);
@@ -105,7 +107,7 @@ bool TableReader::next() {
              std::to_string(names_.size()));
     for (std::size_t column = 0; column < fields_.size(); ++column) {
         bool text = column == name_column || column == material_column || column == side_column;
-        bool absent = is_stderr_column(column) && fields_[column].empty();
+        bool absent = is_stderr_column(bands_, column) && fields_[column].empty();
         if (!text && !absent)
             number(column);
     }

@@ -46,9 +46,19 @@ Eigen::VectorXd reflectance_of(const Patches& patches, std::uint32_t band) {
     return band_of(patches, patches.reflectance, band);
 }
 
+Eigen::MatrixXd scattering_of(const Patches& patches, std::uint32_t band) {
+    Eigen::MatrixXd matrix = reflectance_of(patches, band).asDiagonal();
+    for (std::size_t patch = 0; patches.translucent() && patch < patches.count(); ++patch)
+        if (const std::size_t q = patches.across(patch * patches.bands + band);
+            q != Patches::no_side)
+            matrix(static_cast<Eigen::Index>(patch), patches.other[patch]) =
+                patches.transmittance[q];
+    return matrix;
+}
+
 Eigen::VectorXd exact_radiosity(const Eigen::MatrixXd& factors, const Patches& patches,
                                 std::uint32_t band) {
-    Eigen::MatrixXd system = -(reflectance_of(patches, band).asDiagonal() * factors);
+    Eigen::MatrixXd system = -(scattering_of(patches, band) * factors);
     system.diagonal().array() += 1;
     return system.partialPivLu().solve(emission_of(patches, band));
 }

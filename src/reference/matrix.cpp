@@ -7,6 +7,7 @@
 #include <Eigen/IterativeLinearSolvers>
 
 #include "lines/line_stream.h"
+#include "solve/bicgstab.h"
 
 namespace parallux {
 
@@ -157,6 +158,28 @@ double CountedLines::sky(std::size_t patch, std::uint32_t band) const {
     return sky_[patch * patches_.bands + band] / std::max(1.0, static_cast<double>(exits_[patch]));
 }
 
+// Light that goes through surfaces leaves no symmetric system: n H - N S H = N E + sky.
+std::vector<double> CountedLines::irradiance_through(const std::vector<double>& emission,
+                                                     const Vector& sky, const Vector& exits,
+                                                     std::uint32_t band) const {
+    const Eigen::Index n = exits.size();
+    auto arriving = [&](const std::vector<double>& sent) {
+        return counted(between_->counts, Eigen::Map<const Vector>(sent.data(), n));
+    };
+    auto times = [&](const std::vector<double>& irradiance) {
+        std::vector<double> sent(irradiance.size());
+        for (std::size_t patch = 0; patch < sent.size(); ++patch)
+            sent[patch] = scattered(patches_, patch * patches_.bands + band, [&](std::size_t at) {
+                return irradiance[at / patches_.bands];
+            });
+        const Vector result =
+            Eigen::Map<const Vector>(irradiance.data(), n) - arriving(sent).cwiseQuotient(exits);
+        return std::vector<double>(result.data(), result.data() + n);
+    };
+    const Vector first = (arriving(emission) + sky).cwiseQuotient(exits);
+    return bicgstab(times, {first.data(), first.data() + n}, 1e-13, 10000);
+}
+
 std::vector<double> CountedLines::irradiance(const std::vector<double>& emission,
                                              std::uint32_t band) const {
     const Counts& between = between_->counts;
@@ -168,6 +191,8 @@ std::vector<double> CountedLines::irradiance(const std::vector<double>& emission
         reflectance[i] = patches_.reflectance[patch * patches_.bands + band];
         sky[i] = sky_[patch * patches_.bands + band];
     }
+    if (patches_.translucent())
+        return irradiance_through(emission, sky, exits, band);
     const Vector scale = (reflectance.cwiseQuotient(exits)).cwiseSqrt();
     const System system(between, scale);
     Eigen::ConjugateGradient<System, Eigen::Lower | Eigen::Upper, Eigen::IdentityPreconditioner> cg;
@@ -228,12 +253,15 @@ PassResult matrix_pass(const Run& run, DirectLight& direct, TransferState& state
         for (std::size_t patch = 0; patch < emission.size(); ++patch) {
             std::size_t k = patch * bands + band;
             double quanta = run.patches.area[patch] / state.watts_per_quantum;
-            std::int64_t received = std::llrint(irradiance[patch] * quanta);
-            std::int64_t reflected = std::llrint(static_cast<double>(run.patches.reflectance[k]) *
-                                                 static_cast<double>(received));
-            run.banks.receive(0, k, received);
+            auto received = [&](std::size_t at) {
+                const std::size_t side = at / bands;
+                return std::llrint(irradiance[side] * run.patches.area[side] /
+                                   state.watts_per_quantum);
+            };
+            const std::int64_t reflected = scattered_quanta(run.patches, k, received);
+            run.banks.receive(0, k, received(k));
             state.sent[k] = reflected;
-            state.absorbed[band] += received - reflected;
+            state.absorbed[band] += received(k) - passed_on(run.patches, k, received(k));
             state.escaped[band] +=
                 std::llrint((emission[patch] * quanta + static_cast<double>(reflected)) *
                             counted_lines.escaped(patch));

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include <Eigen/Core>
 #include <glm/vec3.hpp>
 
 #include "solve/pass.h"
@@ -20,7 +21,8 @@ public:
     void count(const IntersectionLists& lists, const std::vector<glm::dvec3>& directions);
 
     /// H of one band in W/m² from H = F (E + ρ H) with F_ij = n_ij / n_i and E in W/m², patch by
-    /// patch; the sky of the scene included. By conjugate gradients to 1e-13.
+    /// patch; the sky of the scene included. By conjugate gradients to 1e-13, where light goes
+    /// through surfaces by Bi-CGSTAB.
     std::vector<double> irradiance(const std::vector<double>& emission, std::uint32_t band) const;
 
     const LineCounts& counts() const { return counts_; }
@@ -32,6 +34,10 @@ public:
 
 private:
     struct Matrix;
+
+    std::vector<double> irradiance_through(const std::vector<double>& emission,
+                                           const Eigen::VectorXd& sky, const Eigen::VectorXd& exits,
+                                           std::uint32_t band) const;
 
     void leave(std::uint32_t patch, const glm::dvec3* direction, double sign);
     void pair(std::uint32_t i, std::uint32_t j);

@@ -52,7 +52,8 @@ public:
             for (std::uint32_t band = 0; band < emitters_.bands; ++band)
                 run_.banks.receive(worker, patch * std::size_t(emitters_.bands) + band,
                                    carried[band]);
-            if (!reflect(patch, random.uniform(), carried))
+            patch = go_on(patch, random.uniform(), carried);
+            if (patch == none)
                 return;
             from = &cells_.choose(patch, random.uniform());
         }
@@ -71,15 +72,31 @@ private:
     }
 
     // Russian roulette with the highest reflectance q; band b goes on with ρ_b / q of its power.
-    bool reflect(std::uint32_t patch, double chance, Quanta& carried) const {
-        const float* reflectance = &run_.patches.reflectance[patch * std::size_t(emitters_.bands)];
-        double survival = *std::max_element(reflectance, reflectance + emitters_.bands);
+    // Likewise with the highest transmittance, to the other side; both together at most always.
+    std::uint32_t go_on(std::uint32_t patch, double chance, Quanta& carried) const {
+        const Patches& patches = run_.patches;
+        const std::size_t first = patch * std::size_t(emitters_.bands);
+        const float* share = &patches.reflectance[first];
+        double survival = *std::max_element(share, share + emitters_.bands);
+        std::uint32_t next = patch;
+        if (patches.translucent()) {
+            const float* tau = &patches.transmittance[first];
+            double through = *std::max_element(tau, tau + emitters_.bands);
+            const double all = std::max(1.0, survival + through);
+            survival /= all, through /= all;
+            if (chance >= survival) {
+                chance -= survival;
+                survival = through;
+                share = tau;
+                next = patches.other[patch];
+            }
+        }
         if (chance >= survival)
-            return false;
+            return none;
         for (std::uint32_t band = 0; band < emitters_.bands; ++band)
-            carried[band] = std::llrint(static_cast<double>(reflectance[band]) / survival *
+            carried[band] = std::llrint(static_cast<double>(share[band]) / survival *
                                         static_cast<double>(carried[band]));
-        return true;
+        return next;
     }
 
     const Run& run_;
@@ -133,10 +150,10 @@ PassResult particle_pass(const Run& run, DirectLight& direct, TransferState& sta
     }
     result.received = 1 / result.done;
     for (std::size_t k = 0; k < state.sent.size(); ++k)
-        state.sent[k] =
-            std::llrint(static_cast<double>(run.patches.reflectance[k]) *
-                        static_cast<double>(run.banks.received(
-                            k / state.bands, static_cast<std::uint32_t>(k % state.bands))));
+        state.sent[k] = scattered_quanta(run.patches, k, [&](std::size_t at) {
+            return run.banks.received(at / state.bands,
+                                      static_cast<std::uint32_t>(at % state.bands));
+        });
     return result;
 }
 

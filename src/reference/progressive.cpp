@@ -13,7 +13,7 @@ std::vector<double> ambient_of(const Run& run, const DirectLight& direct) {
     std::vector<double> ambient(patches.bands, 0), absorbing(patches.bands, 0);
     for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
         absorbing[k % patches.bands] +=
-            patches.area[k / patches.bands] * (1 - static_cast<double>(patches.reflectance[k]));
+            patches.area[k / patches.bands] * (1 - static_cast<double>(patches.albedo(k)));
     }
     for (std::uint32_t band = 0; band < patches.bands; ++band)
         ambient[band] =

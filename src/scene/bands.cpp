@@ -61,6 +61,13 @@ void spread_bands(Scene& scene, std::uint32_t bands, const ValuesKept& kept) {
         if (kept.reflectance[m])
             spread(material.reflectance, material.reflectance_texture == none && !use.coloured[m],
                    what);
+        if (kept.transmittance[m])
+            spread(material.transmittance, true, what);
+        if (material.own_back && kept.back_reflectance[m])
+            spread(material.back_reflectance,
+                   material.reflectance_texture == none && !use.coloured[m], what);
+        if (material.own_back && kept.back_transmittance[m])
+            spread(material.back_transmittance, true, what);
         if (kept.emission[m])
             spread(material.emission, material.emission_texture == none, what);
     }

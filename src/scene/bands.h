@@ -8,7 +8,7 @@ namespace parallux {
 
 /// Which materials still have the scene's own values, one entry a material.
 struct ValuesKept {
-    std::vector<bool> reflectance, emission;
+    std::vector<bool> reflectance, emission, transmittance, back_reflectance, back_transmittance;
 };
 
 /// Makes a scene one of so many bands: what is kept of its values, its lights and its sky must have

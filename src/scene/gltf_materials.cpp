@@ -58,6 +58,7 @@ GltfMaterial GltfMaterials::read(const JsonView& json, const std::string& name) 
     material.two_sided = json.boolean_or("doubleSided", false);
     read_base_colour(json, material, result);
     read_emission(json, material, result);
+    read_diffuse_transmission(json, material);
     if (extension(json, "KHR_materials_transmission"))
         clear_.note(name);
     result.index = add_material(builder_.scene(), std::move(material));
@@ -93,6 +94,34 @@ void GltfMaterials::read_base_colour(const JsonView& json, Material& material,
         metals_.note(material.name);
     if (json.text_or("alphaMode", "OPAQUE") != "OPAQUE" && factor[3] < 0.5)
         transparent_.note(material.name);
+}
+
+// Of light, the share f is let through, τ = f · colour, and the rest meets the base colour: ρ =
+// (1 - f) · base.
+void GltfMaterials::read_diffuse_transmission(const JsonView& json, Material& material) {
+    auto through = extension(json, "KHR_materials_diffuse_transmission");
+    if (!through)
+        return;
+    double share = 0;
+    if (auto factor = through->find("diffuseTransmissionFactor"))
+        share = factor->number(0, 1);
+    auto colour = through->find("diffuseTransmissionColorFactor");
+    if (colour && colour->size() != 3)
+        colour->fail("must have three numbers");
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double tau = share * (colour ? colour->at(c).number(0, 1) : 1.0);
+        material.transmittance[c] = std::min(static_cast<float>(tau), max_reflectance);
+        material.reflectance[c] =
+            std::min(static_cast<float>((1 - share) * material.reflectance[c]),
+                     max_reflectance - material.transmittance[c]);
+    }
+    for (const char* picture : {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"})
+        if (through->find(picture))
+            plain_.note(material.name);
+    if (material.is_translucent() && !material.two_sided) {
+        material.two_sided = true;
+        turned_.note(material.name);
+    }
 }
 
 void GltfMaterials::read_emission(const JsonView& json, Material& material, GltfMaterial& result) {
@@ -162,6 +191,8 @@ void GltfMaterials::finish() {
     clear_.warn(scene, "materials", "transmit light and are taken as opaque and diffuse");
     transparent_.warn(scene, "materials", "are mostly transparent and taken as opaque");
     white_.warn(scene, "materials", "have reflectance 1 and are taken as 0.999");
+    plain_.warn(scene, "materials", "let light through by a picture; its factor alone is used");
+    turned_.warn(scene, "materials", "let light through and are taken as two-sided");
     clamped_.warn(scene, "samplers", "do not repeat; their textures repeat here");
 }
 

@@ -42,6 +42,10 @@ struct Tally {
     void warn(Scene& scene, const std::string& noun, const std::string& what) const;
 };
 
+/// What is wrong with a material's sides: ρ + τ not below 1, or values for a back or a way through
+/// without two sides; empty: nothing.
+std::string side_fault(const Material& material);
+
 /// The largest reflectance that a solve can carry: with 1 light would never end.
 inline constexpr float max_reflectance = 0.999f;
 

@@ -51,21 +51,56 @@ Columns columns_of(const Csv& csv, const std::string& quantity) {
     return columns;
 }
 
-void check_columns(const Csv& csv, const Columns& reflectance, const Columns& emission) {
-    for (const std::string& name : csv.columns())
-        if (name != "material" && name.rfind("reflectance_", 0) != 0 &&
-            name.rfind("emission_", 0) != 0)
+// A quantity of the table: where a material has it, and how large it may be.
+struct Quantity {
+    const char* name;
+    Spectrum Material::*values;
+    double most;
+    std::vector<bool> ValuesKept::*kept;
+    Columns columns = {};
+
+    bool given() const { return !columns.of_band.empty(); }
+};
+
+const double below_one = std::nextafter(1.0f, 0.0f);
+
+std::vector<Quantity> quantities_of(const Csv& csv) {
+    std::vector<Quantity> all = {
+        {"reflectance", &Material::reflectance, below_one, &ValuesKept::reflectance},
+        {"transmittance", &Material::transmittance, below_one, &ValuesKept::transmittance},
+        {"back_reflectance", &Material::back_reflectance, below_one, &ValuesKept::back_reflectance},
+        {"back_transmittance", &Material::back_transmittance, below_one,
+         &ValuesKept::back_transmittance},
+        {"emission", &Material::emission, 1e15, &ValuesKept::emission}};
+    for (Quantity& one : all)
+        one.columns = columns_of(csv, one.name);
+    return all;
+}
+
+// The number of bands that all quantities have.
+std::uint32_t check_columns(const Csv& csv, const std::vector<Quantity>& quantities) {
+    for (const std::string& name : csv.columns()) {
+        const bool known = std::any_of(
+            quantities.begin(), quantities.end(),
+            [&](const Quantity& one) { return name.rfind(one.name + std::string("_"), 0) == 0; });
+        if (name != "material" && !known)
             csv.fail("column " + printable(name) +
-                     (name.rfind("transmittance", 0) == 0
-                          ? " asks for what is not done: surfaces reflect or absorb"
-                          : " is none of material, reflectance_0 … and emission_0 …"));
-    if (reflectance.of_band.empty() && emission.of_band.empty())
+                     " is none of material, reflectance_0 …, transmittance_0 …, the same of back_, "
+                     "and emission_0 …");
+    }
+    const Quantity* first = nullptr;
+    for (const Quantity& one : quantities) {
+        if (!one.given())
+            continue;
+        if (first && first->columns.of_band.size() != one.columns.of_band.size())
+            csv.fail("has " + std::to_string(first->columns.of_band.size()) + " bands of " +
+                     first->name + " but " + std::to_string(one.columns.of_band.size()) + " of " +
+                     one.name);
+        first = first ? first : &one;
+    }
+    if (!first)
         csv.fail("has neither reflectance nor emission columns");
-    if (!reflectance.of_band.empty() && !emission.of_band.empty() &&
-        reflectance.of_band.size() != emission.of_band.size())
-        csv.fail("has " + std::to_string(reflectance.of_band.size()) +
-                 " bands of reflectance but " + std::to_string(emission.of_band.size()) +
-                 " of emission");
+    return static_cast<std::uint32_t>(first->columns.of_band.size());
 }
 
 Spectrum values(const Csv& csv, std::size_t row, const Columns& columns, double high) {
@@ -75,16 +110,37 @@ Spectrum values(const Csv& csv, std::size_t row, const Columns& columns, double 
     return result;
 }
 
+// The back is as the front, unless the table or, of what the table does not have, the scene says
+// otherwise.
+void settle_back(const Material& before, ValuesKept& kept, Material& material) {
+    const bool given = !kept.back_reflectance.back() || !kept.back_transmittance.back();
+    const bool front = !kept.reflectance.back() || !kept.transmittance.back();
+    if (!given && (front || !before.own_back)) {
+        material.own_back = false;
+        material.back_reflectance = material.back_transmittance = {};
+        return;
+    }
+    material.own_back = true;
+    const auto [reflectance, transmittance] =
+        before.own_back && !front ? std::pair(before.back_reflectance, before.back_transmittance)
+                                  : std::pair(material.reflectance, material.transmittance);
+    if (kept.back_reflectance.back()) {
+        material.back_reflectance = reflectance;
+        kept.back_reflectance.back() = kept.reflectance.back();
+    }
+    if (kept.back_transmittance.back()) {
+        material.back_transmittance = transmittance;
+        kept.back_transmittance.back() = kept.transmittance.back();
+    }
+}
+
 }  // namespace
 
 void set_materials(Scene& scene, const std::filesystem::path& file, std::uint32_t bands) {
     const Csv csv(file);
     const std::size_t name_column = csv.need("material");
-    const Columns reflectance = columns_of(csv, "reflectance");
-    const Columns emission = columns_of(csv, "emission");
-    check_columns(csv, reflectance, emission);
-    const auto in_file =
-        static_cast<std::uint32_t>(std::max(reflectance.of_band.size(), emission.of_band.size()));
+    const std::vector<Quantity> quantities = quantities_of(csv);
+    const std::uint32_t in_file = check_columns(csv, quantities);
     if (bands != 0 && bands != in_file)
         throw Error(Fault::usage, "--bands " + std::to_string(bands) + ": " + file.string() +
                                       " has values for " + std::to_string(in_file));
@@ -109,22 +165,23 @@ void set_materials(Scene& scene, const std::filesystem::path& file, std::uint32_
     // What the table says is the whole value: nothing of the scene's multiplies it any more.
     ValuesKept kept;
     Tally textured;
-    const double below_one = std::nextafter(1.0f, 0.0f);
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         Material& material = scene.materials[m];
+        const Material before = material;
         const bool listed = row_of[m] != Csv::absent;
-        kept.reflectance.push_back(!listed || reflectance.of_band.empty());
-        kept.emission.push_back(!listed || emission.of_band.empty());
-        if (!kept.reflectance.back()) {
-            material.reflectance = values(csv, row_of[m], reflectance, below_one);
-            if (std::exchange(material.reflectance_texture, none) != none)
-                textured.note(material.name);
+        for (const Quantity& one : quantities) {
+            (kept.*one.kept).push_back(!listed || !one.given());
+            if (!(kept.*one.kept).back())
+                material.*one.values = values(csv, row_of[m], one.columns, one.most);
         }
-        if (!kept.emission.back()) {
-            material.emission = values(csv, row_of[m], emission, 1e15);
-            if (std::exchange(material.emission_texture, none) != none)
-                textured.note(material.name);
-        }
+        if (!kept.reflectance.back() && std::exchange(material.reflectance_texture, none) != none)
+            textured.note(material.name);
+        if (!kept.emission.back() && std::exchange(material.emission_texture, none) != none)
+            textured.note(material.name);
+        if (listed)
+            settle_back(before, kept, material);
+        if (const std::string fault = side_fault(material); listed && !fault.empty())
+            csv.fail(row_of[m], "material \"" + printable(material.name) + "\": " + fault);
     }
     for (std::size_t s = 0; s < scene.attributes.size(); ++s)
         if (!kept.reflectance[scene.surfaces[s].material])
@@ -135,7 +192,7 @@ void set_materials(Scene& scene, const std::filesystem::path& file, std::uint32_
 
 void set_bands(Scene& scene, std::uint32_t bands) {
     const std::vector<bool> all(scene.materials.size(), true);
-    spread_bands(scene, bands, {all, all});
+    spread_bands(scene, bands, {all, all, all, all, all});
 }
 
 }  // namespace parallux

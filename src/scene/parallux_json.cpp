@@ -67,7 +67,8 @@ void ParalluxReader::read_materials() {
     auto list = root_.find("materials");
     for (std::size_t i = 0; list && i < list->size(); ++i) {
         JsonView json = list->at(i);
-        json.only({"name", "comment", "reflectance", "emission", "two_sided"});
+        json.only(
+            {"name", "comment", "reflectance", "transmittance", "back", "emission", "two_sided"});
         std::string name = json.text_or("name", "material " + std::to_string(i));
         Material m;
         m.name = printable(name);
@@ -78,12 +79,30 @@ void ParalluxReader::read_materials() {
                 if (rho >= 1)
                     reflectance->fail("must be less than 1: light would never end");
         }
+        if (auto transmittance = json.find("transmittance"))
+            m.transmittance = spectrum(*transmittance, 0, 1);
         if (auto emission = json.find("emission"))
             m.emission = spectrum(*emission, 0, 1e15);
         m.two_sided = json.boolean_or("two_sided", false);
+        if (auto back = json.find("back"))
+            read_back(*back, m);
+        if (const std::string fault = side_fault(m); !fault.empty())
+            json.fail(fault);
         if (!materials_.emplace(name, add_material(scene_, std::move(m))).second)
             json.fail("a second material \"" + printable(name) + "\"");
     }
+}
+
+// What the back has of its own; what it does not say is as on the front.
+void ParalluxReader::read_back(const JsonView& json, Material& m) const {
+    json.only({"reflectance", "transmittance"});
+    m.own_back = true;
+    m.back_reflectance = m.reflectance;
+    m.back_transmittance = m.transmittance;
+    if (auto reflectance = json.find("reflectance"))
+        m.back_reflectance = spectrum(*reflectance, 0, 1);
+    if (auto transmittance = json.find("transmittance"))
+        m.back_transmittance = spectrum(*transmittance, 0, 1);
 }
 
 // A material is named, or numbered in the order of the list.

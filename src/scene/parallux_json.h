@@ -33,6 +33,7 @@ private:
     // parallux_json.cpp: what the scene is made of
     Spectrum spectrum(const JsonView& json, double low, double high) const;
     void read_materials();
+    void read_back(const JsonView& json, Material& m) const;
     std::uint32_t material(const JsonView& json) const;
     void read_lights();
     void read_cameras();

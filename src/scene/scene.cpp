@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "scene/loaders.h"
 #include "scene/texture_lookup.h"
 
 namespace parallux {
@@ -64,15 +65,35 @@ double surface_area(const Scene& scene, const Surface& surface) {
     return surface.shape() == Shape::triangle ? area / 2 : area;
 }
 
-Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v) {
+bool Material::is_translucent() const {
+    return transmittance != Spectrum{} || transmittance_of(true) != Spectrum{};
+}
+
+Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v,
+                             bool back) {
     const Material& m = scene.materials[scene.surfaces[surface].material];
-    Spectrum rho = m.reflectance;
+    Spectrum rho = back && m.own_back ? m.back_reflectance : m.reflectance;
+    const Spectrum& tau = m.transmittance_of(back);
     multiply_texture(scene, rho, m.reflectance_texture, m.reflectance_uv, surface, u, v);
     if (!scene.attributes.empty())
         multiply(scene, rho, affine_at(scene.attributes[surface].colour, u, v));
-    for (float& r : rho.value)
-        r = std::clamp(r, 0.0f, 0.999f);
+    for (std::size_t band = 0; band < max_bands; ++band)
+        rho[band] = std::max(0.0f, std::min(rho[band], 0.999f - tau[band]));
     return rho;
+}
+
+std::string side_fault(const Material& m) {
+    if ((m.own_back || m.is_translucent()) && !m.two_sided)
+        return "only what is two-sided has a back or lets light through";
+    for (bool back : {false, true}) {
+        const Spectrum& rho = back && m.own_back ? m.back_reflectance : m.reflectance;
+        for (std::size_t band = 0; band < max_bands; ++band)
+            if (!(rho[band] + m.transmittance_of(back)[band] < 1))
+                return std::string(back ? "back: " : "") +
+                       "reflectance and transmittance must be less than 1 together: light would "
+                       "never end";
+    }
+    return {};
 }
 
 Spectrum surface_emission(const Scene& scene, std::uint32_t surface, double u, double v) {

@@ -17,12 +17,6 @@ namespace {
 // Parted from the pass's bundles by its seed.
 constexpr std::uint64_t gather_key = 0x67617468657200ull;
 
-// W/m² of patch and band that an exit is to carry.
-double sent(const Run& run, const Emission& emission, const PassResult& pass, std::size_t k) {
-    return emission.of_exit(run.patches, k) +
-           static_cast<double>(run.patches.reflectance[k]) * pass.irradiance[k];
-}
-
 // A power of two of quanta per W/m², so that the brightest exit carries as many as it may.
 double quanta_per_exitance(const Run& run, const Emission& emission, const PassResult& pass) {
     std::vector<double> worker_most(run.plan.threads, 0);
@@ -30,7 +24,7 @@ double quanta_per_exitance(const Run& run, const Emission& emission, const PassR
                  [&](std::size_t begin, std::size_t end, unsigned worker) {
                      double most = worker_most[worker];
                      for (std::size_t k = begin; k < end; ++k)
-                         most = std::max(most, sent(run, emission, pass, k));
+                         most = std::max(most, sent_by_exit(run, emission, pass, k));
                      worker_most[worker] = most;
                  });
     double most = *std::max_element(worker_most.begin(), worker_most.end());
@@ -56,7 +50,7 @@ void load_exits(const Run& run, const Emission& emission, const PassResult& pass
                                  static_cast<std::uint32_t>(patch) * dither_patch +
                                  band * dither_band + state.dither;
                              state.carried[patch * lanes(bands) + band] = static_cast<std::int32_t>(
-                                 unit * sent(run, emission, pass, patch * bands + band) +
+                                 unit * sent_by_exit(run, emission, pass, patch * bands + band) +
                                  static_cast<double>(dither >> 1) * 0x1p-31);
                          }
                  });

@@ -10,9 +10,10 @@ namespace parallux {
 
 namespace {
 
-std::int64_t reflected(const Run& run, std::size_t k, std::int64_t quanta) {
-    return std::llrint(static_cast<double>(run.patches.reflectance[k]) *
-                       static_cast<double>(quanta));
+// What has arrived, k = patch * bands + band.
+std::int64_t received_of(const Run& run, std::size_t k) {
+    const std::uint32_t bands = run.patches.bands;
+    return run.banks.received(k / bands, static_cast<std::uint32_t>(k % bands));
 }
 
 // Band totals of one worker's patches.
@@ -27,9 +28,8 @@ std::int64_t emitted_quanta(const Patches& patches, double watts_per_quantum, st
 }
 
 std::int64_t unshot_quanta(const Run& run, const DirectLight& direct, std::size_t k) {
-    const std::uint32_t bands = run.patches.bands;
     std::int64_t unshot =
-        reflected(run, k, run.banks.received(k / bands, static_cast<std::uint32_t>(k % bands)));
+        scattered_quanta(run.patches, k, [&](std::size_t at) { return received_of(run, at); });
     if (direct.own)
         unshot += emitted_quanta(run.patches, run.plan.watts_per_quantum, k);
     return unshot - direct.sent_on(k);
@@ -51,14 +51,15 @@ void settle(const Run& run, DirectLight& direct) {
             const std::size_t k = patch * bands + band;
             const std::int64_t received = run.banks.received(patch, band);
             const std::int64_t unshot = unshot_quanta(run, direct, k);
-            sums.absorbed[band] += received - reflected(run, k, received);
+            sums.absorbed[band] += received - passed_on(patches, k, received);
             sums.unshot[band] += unshot;
             if (direct.arrived)
                 direct.irradiance[k] = static_cast<float>(unit * static_cast<double>(received));
             if (!direct.shot.empty())
                 direct.exitance[k] = static_cast<float>(unit * static_cast<double>(unshot));
         }
-        if (direct.arrived)
+        // The other side still asks what has arrived here.
+        if (direct.arrived && !patches.translucent())
             run.banks.clear_patch(patch);
     };
     parallel_for(run.plan.threads, patches.count(), 4096,
@@ -66,6 +67,8 @@ void settle(const Run& run, DirectLight& direct) {
                      for (std::size_t patch = begin; patch < end; ++patch)
                          settle_patch(patch, totals[worker]);
                  });
+    if (direct.arrived && patches.translucent())
+        run.banks.clear(run.plan.threads);
     for (const Totals& sums : totals)
         for (std::uint32_t band = 0; band < bands; ++band) {
             direct.absorbed[band] += sums.absorbed[band];

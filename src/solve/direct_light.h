@@ -17,7 +17,7 @@ struct DirectLight {
     std::vector<std::int64_t> shot;
     std::vector<std::int64_t> emitted, absorbed, escaped, unshot;  ///< band totals
     std::vector<float> irradiance;  ///< W/m², patch · bands + band; empty: no light arrived
-    /// Left for the pass, W/m²; empty: own emission, if so, and what is reflected of irradiance.
+    /// Left for the pass, W/m²; empty: own emission, if so, and what leaves again of irradiance.
     std::vector<float> exitance;
     std::uint64_t rays = 0;   ///< cast
     std::uint64_t shots = 0;  ///< from single patches

@@ -9,15 +9,17 @@ namespace parallux {
 
 namespace {
 
-// Reflected power that was not sent on, band totals.
+// Reflected and transmitted power that was not sent on, band totals.
 std::vector<std::int64_t> unshot_of(const Run& run, const TransferState& state) {
     const Patches& patches = run.patches;
     std::vector<std::int64_t> unshot(state.bands, 0);
     for (std::size_t patch = 0; patch < patches.count(); ++patch)
         for (std::uint32_t band = 0; band < state.bands; ++band) {
             std::size_t k = patch * state.bands + band;
-            unshot[band] += std::llrint(static_cast<double>(patches.reflectance[k]) *
-                                        static_cast<double>(run.banks.received(patch, band))) -
+            unshot[band] += scattered_quanta(patches, k,
+                                             [&](std::size_t at) {
+                                                 return run.banks.received(at / state.bands, band);
+                                             }) -
                             state.sent[k];
         }
     return unshot;

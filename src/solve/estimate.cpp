@@ -65,6 +65,8 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
         // B. P. Welford's way to mean and spread, with weights; one more than the lines, so that
         // a patch that none leaves has a mean too.
         spread_.resize(irradiance_.size(), 0);
+        if (patches_.translucent())
+            spread_scattered(irradiance, pass.crossings, threads);
         parallel_for(
             threads, patches_.count(), 4096, [&](std::size_t begin, std::size_t end, unsigned) {
                 for (std::size_t patch = begin; patch < end; ++patch) {
@@ -75,7 +77,9 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
                          ++k) {
                         const double step = static_cast<double>(irradiance[k]) - irradiance_[k];
                         irradiance_[k] = static_cast<float>(irradiance_[k] + step * share);
-                        spread_[k] = static_cast<float>(spread_[k] + step * step * share * before);
+                        if (!patches_.translucent())
+                            spread_[k] =
+                                static_cast<float>(spread_[k] + step * step * share * before);
                     }
                     total_.crossings[patch] += pass.crossings[patch];
                 }
@@ -92,6 +96,24 @@ void Estimate::add(const Run& run, const DirectLight& direct, PassResult& pass) 
     if (is_closed(run.scene))
         total_.leaks += pass.counts.odd;
     total_.partial = total_.partial || !pass.whole || direct.done < 1;
+}
+
+// Where light goes through, what leaves a side errs as what both receive, and those are known
+// together alone: the spread is that of ρ_p H_p + τ_q H_q.
+void Estimate::spread_scattered(const std::vector<float>& irradiance,
+                                const std::vector<std::uint64_t>& crossings, unsigned threads) {
+    auto step = [&](std::size_t k) { return static_cast<double>(irradiance[k]) - irradiance_[k]; };
+    parallel_for(
+        threads, irradiance.size(), 4096, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t k = begin; k < end; ++k) {
+                const std::size_t patch = k / patches_.bands;
+                const double weight = static_cast<double>(crossings[patch]) + 1;
+                const double before = static_cast<double>(total_.crossings[patch]) + groups_;
+                const double both = scattered(patches_, k, step);
+                spread_[k] = static_cast<float>(spread_[k] +
+                                                both * both * weight / (before + weight) * before);
+            }
+        });
 }
 
 bool Estimate::sound() const {
@@ -114,8 +136,12 @@ void Estimate::sketch(const std::vector<float>& irradiance, double lines, unsign
     auto add_value = [&](std::size_t k, Sums& sums) {
         if (patches_.emission[k] > 0)
             return;
+        // Bounds keep their last bit where nothing comes through.
+        const double root = std::sqrt(patches_.area[k / patches_.bands]);
         const double value =
-            std::sqrt(patches_.area[k / patches_.bands]) * patches_.reflectance[k] * irradiance[k];
+            patches_.translucent()
+                ? root * scattered(patches_, k, [&](std::size_t at) { return irradiance[at]; })
+                : root * patches_.reflectance[k] * irradiance[k];
         const std::uint64_t signs = mix64(k);
         for (std::size_t row = 0; row < sketch_size; row += 8) {
             const std::array<double, 8>& eight = signs_of_byte[signs >> row & 255];
@@ -171,7 +197,8 @@ double Estimate::freedom() const {
 // Standard error of the mean radiosity: the groups' own spread.
 double Estimate::deviation(std::size_t k) const {
     const double weight = static_cast<double>(total_.crossings[k / patches_.bands]) + groups_;
-    return patches_.reflectance[k] * std::sqrt(spread_[k] / (weight * (groups_ - 1)));
+    const double spread = std::sqrt(spread_[k] / (weight * (groups_ - 1)));
+    return patches_.translucent() ? spread : patches_.reflectance[k] * spread;
 }
 
 double Estimate::relative_rms() const {
@@ -181,7 +208,9 @@ double Estimate::relative_rms() const {
             continue;
         const double area = patches_.area[k / patches_.bands];
         error += area * std::pow(deviation(k), 2);
-        power += area * std::pow(static_cast<double>(patches_.reflectance[k]) * irradiance_[k], 2);
+        power +=
+            area *
+            std::pow(scattered(patches_, k, [&](std::size_t at) { return irradiance_[at]; }), 2);
     }
     return power > 0 ? std::sqrt(error / power) : 0;
 }
@@ -216,17 +245,23 @@ Solution Estimate::solution(const Plan& plan) {
     solution.bands = patches_.bands;
     solution.irradiance = std::move(irradiance_);
     solution.radiosity.resize(solution.irradiance.size());
-    parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
-                 [&](std::size_t begin, std::size_t end, unsigned) {
-                     for (std::size_t k = begin; k < end; ++k) {
-                         // A patch may send more than it has and then send a debt: few lines may
-                         // bring less than nothing. Nothing is nearer to the truth.
-                         solution.irradiance[k] = std::max(0.0f, solution.irradiance[k]);
-                         solution.radiosity[k] = static_cast<float>(
-                             patches_.emission[k] +
-                             static_cast<double>(patches_.reflectance[k]) * solution.irradiance[k]);
-                     }
-                 });
+    auto for_all = [&](auto&& set) {
+        parallel_for(plan.threads, solution.radiosity.size(), 1 << 14,
+                     [&](std::size_t begin, std::size_t end, unsigned) {
+                         for (std::size_t k = begin; k < end; ++k)
+                             set(k);
+                     });
+    };
+    // A patch may send more than it has and then send a debt: few lines may bring less than
+    // nothing. Nothing is nearer to the truth.
+    for_all(
+        [&](std::size_t k) { solution.irradiance[k] = std::max(0.0f, solution.irradiance[k]); });
+    for_all([&](std::size_t k) {
+        solution.radiosity[k] =
+            static_cast<float>(patches_.emission[k] + scattered(patches_, k, [&](std::size_t at) {
+                                   return solution.irradiance[at];
+                               }));
+    });
     solution.hash = hash_of(solution);
     // The groups' quanta together stand for one run.
     solution.energy.watts_per_quantum /= groups_;

@@ -56,6 +56,8 @@ private:
         std::array<double, sketch_size> sums;
     };
 
+    void spread_scattered(const std::vector<float>& irradiance,
+                          const std::vector<std::uint64_t>& crossings, unsigned threads);
     void sketch(const std::vector<float>& irradiance, double lines, unsigned threads);
     double freedom() const;
     double deviation(std::size_t k) const;
@@ -64,7 +66,7 @@ private:
     const Patches& patches_;
     std::uint32_t groups_ = 0;
     std::vector<float> irradiance_;  // mean, patch · bands + band
-    std::vector<float> spread_;      // Σ weight (irradiance - mean)²
+    std::vector<float> spread_;      // Σ weight (irradiance - mean)², or see spread_scattered()
     std::vector<Sketch> sketches_;
     Solution total_;  // counts, crossings, balance
 };

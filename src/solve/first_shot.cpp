@@ -84,7 +84,12 @@ Trial trial_of(const Patches& patches, const Banks& banks, double quanta, double
         for (std::uint32_t band = 0; band < patches.bands; ++band) {
             const double received = static_cast<double>(banks.received(patch, band));
             all += received;
-            square += std::pow(patches.reflectance[patch * patches.bands + band] * received, 2);
+            square += std::pow(
+                scattered(patches, patch * patches.bands + band,
+                          [&](std::size_t at) {
+                              return static_cast<double>(banks.received(at / patches.bands, band));
+                          }),
+                2);
         }
         if (all <= 0)
             continue;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "solve/follow.h"
+#include "solve/follow_through.h"
 
 namespace parallux {
 
@@ -30,9 +32,10 @@ double Leftover::held(const TransferState& state) {
 }
 
 // Quanta received and unshot, the area that light can reach, and what of that reflects: of every
-// region, or group, and band.
+// region, or group, and band; and what lets light through from one to another.
 struct Leftover::Sums {
     std::vector<double> received, unshot, area, reflecting;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<double, max_bands>> letting;
 
     explicit Sums(std::size_t size)
         : received(size, 0), unshot(size, 0), area(size, 0), reflecting(size, 0) {}
@@ -41,6 +44,16 @@ struct Leftover::Sums {
         for (std::size_t k = 0; k < mean.size(); ++k)
             mean[k] = area[k] > 0 ? reflecting[k] / area[k] : 0;
         return mean;
+    }
+    std::vector<Crossing> crossings(std::uint32_t bands) const {
+        std::vector<Crossing> result;
+        for (const auto& [ways, sums] : letting) {
+            Crossing one{ways.first, ways.second, sums};
+            for (std::size_t band = 0; band < bands; ++band)
+                one.share[band] /= area[one.from * bands + band];
+            result.push_back(one);
+        }
+        return result;
     }
 };
 
@@ -53,14 +66,22 @@ Leftover::Sums Leftover::sums(const TransferState& state, const Banks& banks,
             const std::size_t k = patch * bands + band;
             const std::size_t r = regions_.of[patch] * std::size_t(bands) + band;
             const std::int64_t received = banks.received(patch, band);
-            if (!reached(patch, received, fine[band]))
+            // A side in the dark sends what comes through from the other one.
+            const bool lit = reached(patch, received, fine[band]);
+            if (lit || patches_.translucent())
+                sums.unshot[r] += static_cast<double>(
+                    scattered_quanta(
+                        patches_, k,
+                        [&](std::size_t at) { return banks.received(at / bands, band); }) -
+                    state.sent[k]);
+            if (!lit)
                 continue;
-            const double reflectance = patches_.reflectance[k];
             sums.received[r] += static_cast<double>(received);
-            sums.unshot[r] += static_cast<double>(
-                std::llrint(reflectance * static_cast<double>(received)) - state.sent[k]);
             sums.area[r] += patches_.area[patch];
-            sums.reflecting[r] += patches_.area[patch] * reflectance;
+            sums.reflecting[r] += patches_.area[patch] * double(patches_.reflectance[k]);
+            if (patches_.translucent() && patches_.other[patch] != none)
+                sums.letting[{regions_.of[patch], regions_.of[patches_.other[patch]]}][band] +=
+                    patches_.area[patch] * double(patches_.transmittance[k]);
         }
     return sums;
 }
@@ -74,6 +95,11 @@ Leftover::Sums Leftover::grouped(const Sums& regions) const {
         sums.unshot[g] += regions.unshot[k];
         sums.area[g] += regions.area[k];
         sums.reflecting[g] += regions.reflecting[k];
+    }
+    for (const auto& [way, through] : regions.letting) {
+        auto& sum = sums.letting[{regions_.group[way.first], regions_.group[way.second]}];
+        for (std::size_t band = 0; band < bands; ++band)
+            sum[band] += through[band];
     }
     return sums;
 }
@@ -128,6 +154,49 @@ std::vector<double> Leftover::correction(const TransferState& state, double done
     return factor;
 }
 
+// The same where light goes through surfaces: between groups, then from patch to patch.
+Leftover::Spread Leftover::spread_through(const TransferState& state, const Banks& banks,
+                                          const Sums& groups, Spread spread) const {
+    const std::uint32_t bands = state.bands;
+    const GroupWays between = ways.between_groups();
+    const std::size_t n = between.groups;
+    auto neighbours = [&](const std::vector<double>& values) {
+        std::vector<double> sums(values.size(), 0);
+        for (std::size_t from = 0; from < n; ++from)
+            for (std::size_t to = 0; to < n; ++to)
+                for (std::size_t band = 0; band < bands; ++band)
+                    sums[to * bands + band] +=
+                        between.lines[from * n + to] * values[from * bands + band];
+        return sums;
+    };
+    std::vector<double> to_come = follow_through(
+        {bands, groups.reflectance(), groups.crossings(bands), between.exits, neighbours},
+        groups.unshot);
+    spread.fine = much_to_come(groups.received, to_come, bands);
+    to_come = evened(std::move(to_come), between.exits, groups.area, bands);
+    spread.to_come.resize(std::size_t(regions_.count) * bands);
+    for (std::size_t r = 0; r < spread.to_come.size(); ++r)
+        spread.to_come[r] = to_come[regions_.group[r / bands] * std::size_t(bands) + r % bands];
+    if (spread.fine == std::vector<bool>(bands, false))
+        return spread;
+
+    const Sums regions = sums(state, banks, std::vector<bool>(bands, true));
+    const RegionWays between_regions = ways.between_regions();
+    auto of_regions = [&](const std::vector<double>& values) {
+        std::vector<double> sums(values.size(), 0);
+        between_regions.add_neighbours(values, bands, threads_, sums);
+        return sums;
+    };
+    to_come = evened(follow_through({bands, regions.reflectance(), regions.crossings(bands),
+                                     between_regions.exits, of_regions},
+                                    regions.unshot),
+                     between_regions.exits, regions.area, bands);
+    for (std::size_t r = 0; r < spread.to_come.size(); ++r)
+        if (spread.fine[r % bands])
+            spread.to_come[r] = to_come[r];
+    return spread;
+}
+
 Leftover::Spread Leftover::spread(const TransferState& state, const Banks& banks,
                                   double done) const {
     const std::uint32_t bands = state.bands;
@@ -136,6 +205,8 @@ Leftover::Spread Leftover::spread(const TransferState& state, const Banks& banks
     // Between groups, in each of which it is even.
     const std::vector<bool> only_reached(bands, false), all_of_a_region(bands, true);
     const Sums groups = grouped(sums(state, banks, only_reached));
+    if (patches_.translucent())
+        return spread_through(state, banks, groups, std::move(spread));
     const GroupSystem between(ways.between_groups(), groups.reflectance(), bands, threads_);
     std::vector<double> to_come = between.follow(groups.unshot);
     spread.fine = much_to_come(groups.received, to_come, bands);

@@ -57,6 +57,8 @@ private:
     struct Sums;
     Sums sums(const TransferState& state, const Banks& banks, const std::vector<bool>& fine) const;
     Sums grouped(const Sums& regions) const;
+    Spread spread_through(const TransferState& state, const Banks& banks, const Sums& groups,
+                          Spread spread) const;
     std::vector<double> correction(const TransferState& state, double done) const;
 
     const Patches& patches_;

@@ -56,19 +56,45 @@ public:
             const std::size_t next = bounce + 1 < longest ? cells_.find(patch) : cells_.count();
             for (std::uint32_t band = 0; band < bands; ++band) {
                 const std::size_t at = std::size_t(patch) * bands + band;
-                const double reflectance = run_.patches.reflectance[at];
                 arrived[band] += kept[band] * emission_.of_exit(run_.patches, at);
                 if (next == cells_.count())
-                    arrived[band] += kept[band] * reflectance * pass_.irradiance[at];
-                kept[band] *= reflectance;
+                    arrived[band] +=
+                        kept[band] * scattered(run_.patches, at, [&](std::size_t side) {
+                            return pass_.irradiance[side];
+                        });
             }
             if (next == cells_.count())
                 return;
-            k = next;
+            k = cells_.find(go_on(patch, random, kept));
+            if (k == cells_.count())
+                return;
         }
     }
 
 private:
+    // What a patch sends came to it, or to its other side: chooses the side by the largest of the
+    // shares that it sends of either, and returns its patch.
+    std::uint32_t go_on(std::uint32_t patch, Random& random,
+                        std::array<double, max_bands>& kept) const {
+        const Patches& patches = run_.patches;
+        const std::uint32_t bands = patches.bands;
+        const std::uint32_t side = patches.translucent() ? patches.other[patch] : none;
+        const float* rho = &patches.reflectance[patch * std::size_t(bands)];
+        if (side == none) {
+            for (std::uint32_t band = 0; band < bands; ++band)
+                kept[band] *= static_cast<double>(rho[band]);
+            return patch;
+        }
+        const float* tau = &patches.transmittance[side * std::size_t(bands)];
+        const double most = *std::max_element(rho, rho + bands);
+        const double through = *std::max_element(tau, tau + bands);
+        const double here = most + through > 0 ? most / (most + through) : 1;
+        const bool stays = random.uniform() < here;
+        for (std::uint32_t band = 0; band < bands; ++band)
+            kept[band] *= stays ? rho[band] / here : tau[band] / (1 - here);
+        return stays ? patch : side;
+    }
+
     const Run& run_;
     Emission emission_;
     const PassResult& pass_;

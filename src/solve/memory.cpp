@@ -57,6 +57,7 @@ struct Footprint {
     // its tree.
     std::uint64_t loaded() const {
         return (std::uint64_t(132) << 20) + count * (8 + bands * 8) +
+               (patches.translucent() ? count * (4 + bands * 4) : 0) +
                scene.surfaces.size() * (sizeof(Surface) + sizeof(SurfaceGrid) + 200) +
                scene.positions.size() * (sizeof(glm::dvec3) + 12);
     }

@@ -59,8 +59,8 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     plan.threads = thread_count(settings.threads);
     plan.bank_bytes = bank_limit(settings);
     plan.sphere = line_sphere(scene, settings.sphere_radius);
-    for (float reflectance : patches.reflectance)
-        plan.highest_reflectance = std::max<double>(plan.highest_reflectance, reflectance);
+    for (std::size_t k = 0; k < patches.reflectance.size(); ++k)
+        plan.highest_reflectance = std::max<double>(plan.highest_reflectance, patches.albedo(k));
     plan_lines(patches, settings, plan);
     check_copies(scene, plan.sphere.radius, plan.spacing);
     // All rounds' groups add up their quanta.

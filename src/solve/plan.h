@@ -42,8 +42,8 @@ struct Plan {
     Keeping keeping;                 ///< of the pass's lines, for what is left over
     LineSphere sphere;
     double watts_per_quantum = 1;
-    double highest_reflectance = 0;
-    std::uint64_t bank_bytes = 0;  ///< that the workers' deltas may take
+    double highest_reflectance = 0;  ///< with transmittance
+    std::uint64_t bank_bytes = 0;    ///< that the workers' deltas may take
 
     /// Bundles of the unshot/accumulated pass.
     std::uint64_t passing() const { return bundles - gathering; }

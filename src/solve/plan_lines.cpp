@@ -18,7 +18,7 @@ std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& setti
     for (std::size_t patch = 0; patch < patches.count(); ++patch) {
         float most = 0;
         for (std::uint32_t band = 0; band < patches.bands; ++band)
-            most = std::max(most, patches.reflectance[patch * patches.bands + band]);
+            most = std::max(most, patches.albedo(patch * patches.bands + band));
         area += patches.area[patch];
         reflecting += patches.area[patch] * most;
     }
@@ -156,7 +156,7 @@ double mean_reflectance(const Patches& patches) {
     double area = 0, reflecting = 0;
     for (std::size_t k = 0; k < patches.reflectance.size(); ++k) {
         area += patches.area[k / patches.bands];
-        reflecting += patches.area[k / patches.bands] * patches.reflectance[k];
+        reflecting += patches.area[k / patches.bands] * patches.albedo(k);
     }
     return reflecting / area;
 }

@@ -5,6 +5,7 @@
 
 #include "lines/periodic.h"
 #include "parallux/error.h"
+#include "parallux/scatter.h"
 
 namespace parallux {
 
@@ -62,6 +63,7 @@ Prediction predict_error(const Scene& scene, const Patches& patches,
         without_sky.sky = {};
         Patches black = patches;
         black.reflectance.assign(values, 0);
+        black.transmittance.clear();
         if (settings.first_shot == FirstShot::off)
             black.emission.assign(values, 0);
         direct = irradiance(without_sky, black, settings);
@@ -69,14 +71,18 @@ Prediction predict_error(const Scene& scene, const Patches& patches,
     Patches moments = patches;
     for (std::size_t k = 0; k < values; ++k) {
         float rho = patches.reflectance[k];
-        float emission = rho * direct[k];
+        auto emission =
+            static_cast<float>(scattered(patches, k, [&](std::size_t at) { return direct[at]; }));
         if (settings.first_shot == FirstShot::off)
             emission += patches.emission[k];
-        float reflected = rho * (all[k] - direct[k]);
+        auto reflected = static_cast<float>(
+            scattered(patches, k, [&](std::size_t at) { return all[at] - direct[at]; }));
         moments.emission[k] = std::max(0.0f, emission * emission + 2 * emission * reflected);
         if (settings.direction == Direction::oriented)
             moments.emission[k] += 2 * reflected * reflected;
         moments.reflectance[k] = rho * rho;
+        if (patches.translucent())
+            moments.transmittance[k] = patches.transmittance[k] * patches.transmittance[k];
     }
 
     // The second moments spread like light.
@@ -92,10 +98,12 @@ Prediction predict_error(const Scene& scene, const Patches& patches,
     Prediction prediction;
     double area = 0;
     for (std::size_t k = 0; k < values; ++k) {
-        double own = patches.area[k / patches.bands], rho = patches.reflectance[k];
-        double radiosity = patches.emission[k] + rho * all[k];
+        double own = patches.area[k / patches.bands];
+        double radiosity =
+            patches.emission[k] + scattered(patches, k, [&](std::size_t at) { return all[at]; });
         area += own;
-        prediction.error_times_lines += rho * rho * arriving[k] * area_by_exit;
+        prediction.error_times_lines +=
+            scattered(moments, k, [&](std::size_t at) { return arriving[at]; }) * area_by_exit;
         prediction.mean_square += own * radiosity * radiosity;
     }
     prediction.error_times_lines /= area;

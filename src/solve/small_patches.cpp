@@ -20,7 +20,7 @@ std::vector<std::uint32_t> numbers_of(const std::vector<SmallPatch>& small) {
 double sent_by_exit(const Run& run, const Emission& emission, const PassResult& pass,
                     std::size_t k) {
     return emission.of_exit(run.patches, k) +
-           static_cast<double>(run.patches.reflectance[k]) * pass.irradiance[k];
+           scattered(run.patches, k, [&](std::size_t at) { return pass.irradiance[at]; });
 }
 
 namespace {
@@ -67,6 +67,15 @@ void leave_out_covered(const Run& run, std::vector<SmallPatch>& small) {
         if (!is_covered(run, cells, k))
             kept.push_back(small[k]);
     small = std::move(kept);
+}
+
+// Both sides of what lets light through are served, or none: what one has found the other sends.
+void leave_out_single_sides(const Patches& patches, std::vector<SmallPatch>& small) {
+    const std::vector<std::uint32_t> numbers = numbers_of(small);
+    std::erase_if(small, [&](const SmallPatch& one) {
+        const std::uint32_t side = patches.other[one.patch];
+        return side != none && !std::binary_search(numbers.begin(), numbers.end(), side);
+    });
 }
 
 }  // namespace
@@ -127,6 +136,8 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
               [](const SmallPatch& a, const SmallPatch& b) { return a.patch < b.patch; });
     if (!chosen.empty())
         leave_out_covered(run, chosen);
+    if (patches.translucent())
+        leave_out_single_sides(patches, chosen);
     return chosen;
 }
 

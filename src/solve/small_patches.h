@@ -29,7 +29,7 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
 std::vector<std::uint32_t> numbers_of(const std::vector<SmallPatch>& small);
 
 /// W/m² of patch and band, k = patch · bands + band, that an exit of the gather carries: its
-/// emission, and what it reflects of what the pass has found. `emission` in quanta of 1.
+/// emission, and what leaves again of what the pass has found. `emission` in quanta of 1.
 double sent_by_exit(const Run& run, const Emission& emission, const PassResult& pass,
                     std::size_t k);
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "parallux/error.h"
+#include "parallux/scatter.h"
 #include "parallux/thermal.h"
 
 namespace parallux {
@@ -114,7 +115,9 @@ Fluxes FluxMeter::fluxes(const Solution& solution) {
         row.absorptance += area * absorbs;
         row.emission += area * patches_.emission[patch];
         row.incoming += area * incoming[patch];
-        row.outgoing += area * (patches_.emission[patch] + (1 - absorbs) * incoming[patch]);
+        row.outgoing +=
+            area * (patches_.emission[patch] +
+                    scattered(patches_, patch, [&](std::size_t at) { return incoming[at]; }));
         row.net += area * (patches_.emission[patch] - absorbs * incoming[patch]);
     }
     for (std::size_t unit = 0; unit < names_.size(); ++unit) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "csv.h"
 #include "parallux/changes.h"
@@ -42,6 +43,24 @@ Temperatures::Temperatures(const std::filesystem::path& file) : file_(file) {
 
 void Temperatures::fail(const Row& row, const std::string& what) const {
     input_error(file_, "line " + std::to_string(row.line), what);
+}
+
+// Keeps the first band's values alone, and returns ρ + τ.
+float Temperatures::first_band_only(Material& material) const {
+    for (Spectrum* values : {&material.reflectance, &material.transmittance,
+                             &material.back_reflectance, &material.back_transmittance}) {
+        const float first = (*values)[0];
+        *values = {};
+        (*values)[0] = first;
+    }
+    const float albedo = material.reflectance[0] + material.transmittance[0];
+    // Both sides have one emission.
+    if (material.own_back &&
+        std::abs(material.back_reflectance[0] + material.back_transmittance[0] - albedo) > 1e-6f)
+        input_error(file_, "",
+                    "material \"" + printable(material.name) +
+                        "\" has sides of unlike emissivity, 1 - ρ - τ; temperatures need one");
+    return albedo;
 }
 
 // From the least specific rows to the most specific; those of patches are left for later.
@@ -96,11 +115,9 @@ void Temperatures::apply(Scene& scene, double sky) const {
             Material material = scene.materials[old];
             if (material.reflectance_texture != none && known.empty())
                 textured.note(material.name);
-            const float reflectance = material.reflectance[0];
-            material.reflectance = material.emission = {};
-            material.reflectance[0] = reflectance;
-            material.emission[0] =
-                static_cast<float>((1 - double(reflectance)) * black_body(kelvin[s]));
+            const float albedo = first_band_only(material);
+            material.emission = {};
+            material.emission[0] = static_cast<float>((1 - double(albedo)) * black_body(kelvin[s]));
             material.reflectance_texture = material.emission_texture = none;
             known.push_back({kelvin[s], static_cast<std::uint32_t>(materials.size())});
             materials.push_back(std::move(material));
@@ -132,8 +149,8 @@ void Temperatures::apply(Patches& patches) const {
         if (row.number >= patches.count())
             fail(row, "no patch " + std::to_string(row.number) + "; there are " +
                           std::to_string(patches.count()));
-        patches.emission[row.number] = static_cast<float>(
-            (1 - double(patches.reflectance[row.number])) * black_body(row.kelvin));
+        patches.emission[row.number] =
+            static_cast<float>((1 - double(patches.albedo(row.number))) * black_body(row.kelvin));
     }
 }
 

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "parallux/transfer.h"
 #include "transfer/for_bands.h"
@@ -17,13 +19,21 @@ struct InOrder {
     const Patches& patches;
     LineCounts& counts;
 
+    struct Arrival {
+        std::uint32_t patch;
+        std::int64_t energy[bands];
+    };
+    std::vector<Arrival> waiting = {};
+
     std::int64_t* received(std::uint32_t patch) {
         return &bank.received[static_cast<std::size_t>(patch) * lanes(bands)];
     }
 
-    std::int64_t reflected(std::size_t k, std::int64_t quanta) const {
-        return std::llrint(static_cast<double>(patches.reflectance[k]) *
-                           static_cast<double>(quanta));
+    // All that a patch has to send or has sent of what arrived, k = patch * bands + band.
+    std::int64_t leaving(std::size_t k) {
+        return scattered_quanta(patches, k, [&](std::size_t at) {
+            return received(static_cast<std::uint32_t>(at / bands))[at % bands];
+        });
     }
 
     // Takes all that a patch has to send: its unshot energy and the emission of one exit.
@@ -33,20 +43,36 @@ struct InOrder {
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
             std::int64_t emission = std::llrint(state.emission.of_exit(patches, k + band));
-            std::int64_t all = reflected(k + band, own[band]);
+            std::int64_t all = leaving(k + band);
             energy[band] = all - state.sent[k + band] + emission;
             state.emitted[band] += emission;
             state.sent[k + band] = all;
         }
     }
 
+    // What comes through a surface must not go on along the line that brought it, as if that had
+    // not been scattered: where light does, it arrives when the line is over.
     void arrive(std::uint32_t patch, const std::int64_t* energy) {
+        if (!patches.translucent())
+            return take(patch, energy);
+        waiting.push_back({patch, {}});
+        std::copy_n(energy, bands, waiting.back().energy);
+    }
+
+    void end_line() {
+        for (const Arrival& one : waiting)
+            take(one.patch, one.energy);
+        waiting.clear();
+    }
+
+    void take(std::uint32_t patch, const std::int64_t* energy) {
         std::int64_t* own = received(patch);
         std::size_t k = static_cast<std::size_t>(patch) * bands;
         for (std::uint32_t band = 0; band < bands; ++band) {
-            std::int64_t before = reflected(k + band, own[band]);
+            std::int64_t before = passed_on(patches, k + band, own[band]);
             own[band] += energy[band];
-            state.absorbed[band] += energy[band] - (reflected(k + band, own[band]) - before);
+            state.absorbed[band] +=
+                energy[band] - (passed_on(patches, k + band, own[band]) - before);
         }
     }
 
@@ -111,6 +137,7 @@ struct InOrder {
             escape(last);
         if (outside && both_ways && last != none)
             sky(last, outside->against);
+        end_line();
     }
 };
 

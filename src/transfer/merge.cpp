@@ -10,6 +10,7 @@
 #include "parallel.h"
 #include "transfer/for_bands.h"
 #include "transfer/merge.h"
+#include "transfer/some_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace parallux {
@@ -17,67 +18,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET == HWY_SCALAR
-
-template <std::size_t n, class D>
-hn::Vec<D> load_some(D d, const hn::TFromD<D>* values) {
-    return hn::LoadU(d, values);
-}
-
-template <std::size_t n, class D>
-void store_some(D d, hn::Vec<D> v, hn::TFromD<D>* values) {
-    hn::StoreU(v, d, values);
-}
-
-// Of whole numbers of 32 bits, in 64.
-template <class D>
-hn::Vec<D> product(D d, hn::Vec<D> a, hn::Vec<D> b) {
-    return hn::Set(d, hn::GetLane(a) * hn::GetLane(b));
-}
-
-#else
-
-// The first n of a vector's values; the others hold some value of the same array.
-template <std::size_t n, class D>
-HWY_INLINE hn::Vec<D> load_some(D d, const hn::TFromD<D>* values) {
-    const hn::Half<D> half;
-    if constexpr (n == 1)
-        return hn::Set(d, values[0]);
-    else if constexpr (n == 2 && hn::MaxLanes(D()) == 4)
-        return hn::Combine(d, hn::LoadU(half, values), hn::LoadU(half, values));
-    else if constexpr (n == 3)
-        return hn::Combine(d, hn::Reverse(half, hn::LoadU(half, values + 1)),
-                           hn::LoadU(half, values));
-    else
-        return hn::LoadU(d, values);
-}
-
-template <std::size_t n, class D>
-HWY_INLINE void store_some(D d, hn::Vec<D> v, hn::TFromD<D>* values) {
-    const hn::Half<D> half;
-    if constexpr (n == 1) {
-        values[0] = hn::GetLane(v);
-    } else if constexpr (n == 2 && hn::MaxLanes(D()) == 4) {
-        hn::StoreU(hn::LowerHalf(half, v), half, values);
-    } else if constexpr (n == 3) {
-        hn::StoreU(hn::LowerHalf(half, v), half, values);
-        values[2] = hn::ExtractLane(v, 2);
-    } else {
-        hn::StoreU(v, d, values);
-    }
-}
-
-// Of whole numbers of 32 bits, in 64.
-template <class D>
-HWY_INLINE hn::Vec<D> product(D d, hn::Vec<D> a, hn::Vec<D> b) {
-    const hn::Repartition<std::int32_t, D> both;
-    return hn::BitCast(d, hn::MulEven(hn::BitCast(both, a), hn::BitCast(both, b)));
-}
-
-#endif
-
-// Bands first … first + n - 1 of one patch after the other.
-template <std::uint32_t bands>
+// Bands first … first + n - 1 of one patch after the other. `translucent`: what arrives on one side
+// may leave from the other, as scatter.h says.
+template <std::uint32_t bands, bool translucent>
 struct Merger {
     static constexpr hn::CappedTag<std::int64_t, bands == 1 ? 2 : 4> integers{};
     using Integers = decltype(integers);
@@ -110,7 +53,24 @@ struct Merger {
     }
 
     template <std::size_t n>
-    HWY_INLINE VD exitance(std::size_t k, VD reflectance) const {
+    HWY_INLINE VD loaded(const float* values) const {
+        return hn::PromoteTo(doubles, load_some<n>(floats, values));
+    }
+
+    // A share of quanta, rounded to whole ones.
+    HWY_INLINE static VI share_of(VD part, VI quanta) {
+        return hn::ConvertTo(integers, hn::Round(hn::Mul(part, hn::ConvertTo(doubles, quanta))));
+    }
+
+    HWY_INLINE VI received_at(std::size_t lane) const {
+        VI sum = hn::Load(integers, job.banks[0] + lane);
+        for (std::size_t bank = 1; bank < job.bank_count; ++bank)
+            sum = hn::Add(sum, hn::Load(integers, job.banks[bank] + lane));
+        return sum;
+    }
+
+    template <std::size_t n>
+    HWY_INLINE VD exitance(std::size_t patch, std::size_t k, VD reflectance) const {
         VD sum = hn::Zero(doubles);
         if (job.own)
             sum = hn::PromoteTo(doubles, load_some<n>(floats, job.own + k));
@@ -118,6 +78,13 @@ struct Merger {
             sum = hn::Add(
                 sum,
                 hn::Mul(reflectance, hn::PromoteTo(doubles, load_some<n>(floats, job.direct + k))));
+        if constexpr (translucent) {
+            if (const std::uint32_t side = job.other[patch]; job.direct && side != none) {
+                const std::size_t q = side * std::size_t(bands) + k % bands;
+                sum = hn::Add(sum,
+                              hn::Mul(loaded<n>(job.transmittance + q), loaded<n>(job.direct + q)));
+            }
+        }
         return sum;
     }
 
@@ -128,7 +95,7 @@ struct Merger {
 
         // What was sent leaves unshot.
         const VD reflectance = hn::PromoteTo(doubles, load_some<n>(floats, job.reflectance + k));
-        const VD own = exitance<n>(k, reflectance);
+        const VD own = exitance<n>(patch, k, reflectance);
         const VN carried = hn::Load(narrow, job.carried + lane);
         const VN emission = hn::DemoteTo(
             narrow, hn::Floor(hn::Add(hn::Mul(own, hn::Set(doubles, job.emission_before)),
@@ -140,20 +107,26 @@ struct Merger {
         store_some<n>(integers, sent, job.sent + k);
 
         // What came is absorbed or becomes unshot.
-        VI received = hn::Load(integers, job.banks[0] + lane);
-        for (std::size_t bank = 1; bank < job.bank_count; ++bank)
-            received = hn::Add(received, hn::Load(integers, job.banks[bank] + lane));
-        const VI reflected = hn::ConvertTo(
-            integers, hn::Round(hn::Mul(reflectance, hn::ConvertTo(doubles, received))));
+        const VI received = received_at(lane);
+        VI leaving = share_of(reflectance, received);
         VI &absorbed_here = absorbed[first / step], &emitted_here = emitted[first / step];
-        absorbed_here = hn::Add(absorbed_here, hn::Sub(received, reflected));
+        absorbed_here = hn::Add(absorbed_here, hn::Sub(received, leaving));
+        if constexpr (translucent) {
+            absorbed_here =
+                hn::Sub(absorbed_here, share_of(loaded<n>(job.transmittance + k), received));
+            if (const std::uint32_t side = job.other[patch]; side != none)
+                leaving = hn::Add(
+                    leaving,
+                    share_of(loaded<n>(job.transmittance + side * std::size_t(bands) + first),
+                             received_at(side * std::size_t(lanes(bands)) + first)));
+        }
         emitted_here =
             hn::Add(emitted_here, product(integers, hn::PromoteTo(integers, emission), left));
 
         // Every exit takes its share.
         const VD most = hn::Set(doubles, most_carried);
         const VD unshot =
-            hn::Mul(hn::ConvertTo(doubles, hn::Sub(reflected, sent)), hn::Set(doubles, share));
+            hn::Mul(hn::ConvertTo(doubles, hn::Sub(leaving, sent)), hn::Set(doubles, share));
         const VD next =
             hn::Floor(hn::Add(hn::Add(hn::Mul(own, hn::Set(doubles, job.emission_after)), unshot),
                               dither(start + job.dither_after)));
@@ -200,13 +173,21 @@ struct Merger {
     }
 };
 
-void merge_patches(const MergeJob& job, std::size_t begin, std::size_t end, MergeTotals& totals) {
+template <bool translucent>
+void merge_all(const MergeJob& job, std::size_t begin, std::size_t end, MergeTotals& totals) {
     for_bands(job.bands, [&](auto bands) HWY_ATTR {
-        Merger<bands()> merger(job);
+        Merger<bands(), translucent> merger(job);
         for (std::size_t patch = begin; patch < end; ++patch)
             merger.merge_patch(patch);
         merger.add_to(totals);
     });
+}
+
+void merge_patches(const MergeJob& job, std::size_t begin, std::size_t end, MergeTotals& totals) {
+    if (job.transmittance)
+        merge_all<true>(job, begin, end, totals);
+    else
+        merge_all<false>(job, begin, end, totals);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -236,6 +217,8 @@ void merge(TransferState& state, const Patches& patches, const std::vector<Bank>
     job.bands = state.bands;
     job.area = patches.area.data();
     job.reflectance = patches.reflectance.data();
+    job.transmittance = or_null(patches.transmittance);
+    job.other = patches.other.data();
     job.own = or_null(state.emission.own);
     job.direct = or_null(state.emission.direct);
     job.banks = received.data();

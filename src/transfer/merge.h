@@ -12,6 +12,8 @@ struct MergeJob {
     std::uint32_t bands;
     const double* area;
     const float *reflectance, *own, *direct;  ///< own, direct: null where dark
+    const float* transmittance;               ///< null: nothing lets light through
+    const std::uint32_t* other;               ///< beside transmittance
     const std::int64_t* const* banks;
     std::size_t bank_count;
     std::int64_t* sent;
