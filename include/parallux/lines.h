@@ -127,6 +127,7 @@ struct Projection {
 };
 
 class PlaneSides;
+struct Facets;
 
 /// Columns left … right - 1 and rows top … bottom - 1 of a bundle.
 struct LineWindow {
@@ -141,8 +142,13 @@ class Projector {
 public:
     /// many: does not look for an order of the surfaces' planes, which takes longer than a bundle.
     enum class Surfaces { any, many };
-    /// Keeps references to both: they must outlive the projector.
-    Projector(const Scene& scene, const Patches& patches, Surfaces surfaces = Surfaces::any);
+    /// Keeps references to both: they must outlive the projector. Curved surfaces are cut into
+    /// flat triangles once, for bundles of about the spacing that is given here (0: a thousandth of
+    /// the scene's radius): their hits lie within an eighth of it of where they should, and in the
+    /// right cells but for that; outlines and areas are less by 5·10⁻⁴ at most. That they are met
+    /// an even number of times holds as exactly as for planar ones.
+    Projector(const Scene& scene, const Patches& patches, Surfaces surfaces = Surfaces::any,
+              double spacing = 0);
 
     /// Projects corners and sorts surfaces into tiles, in parallel where they are many. Linear in
     /// corners, surfaces and the tiles they cover. Throws Fault::usage when the spacing gives more
@@ -176,7 +182,8 @@ private:
     void order_list(const Projection& projection, std::int32_t column, std::int32_t row,
                     std::size_t begin, Workspace& workspace) const;
 
-    const Scene& scene_;
+    std::shared_ptr<const Facets> facets_;  // null: there are no curved surfaces
+    const Scene& scene_;                     // whose surfaces are projected
     const Patches& patches_;
     glm::dvec3 centre_{0};
     double radius_ = 0;

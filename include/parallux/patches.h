@@ -87,7 +87,7 @@ struct PatchPlace {
     std::uint32_t surface = none;  ///< the first surface that maps to it
     std::uint32_t iu = 0, iv = 0;  ///< cell; on a triangle iu counts cells along the row
     bool back = false;
-    glm::dvec3 centre{0};  ///< centroid
+    glm::dvec3 centre{0};  ///< centroid; of a curved surface's cell, the point of its middle (u, v)
     glm::dvec3 normal{0};  ///< unit, of the patch's own side
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -48,19 +49,49 @@ struct Material {
     bool is_translucent() const;
 };
 
+/// The domain of (u, v): the unit square or the half of it below its diagonal.
 enum class Shape : std::uint8_t { parallelogram, triangle };
 
-/// A planar piece of the scene with a (u, v) grid: point(u, v) = p0 + u (p1 - p0) + v (p_last -
-/// p0), 0 ≤ u, v ≤ 1, and u + v ≤ 1 on a triangle. Corners run counter-clockwise seen from the
+/// A curved surface over the unit square; its front's normal is ∂p/∂u × ∂p/∂v.
+///  revolved  a profile in the half-plane of distance from an axis and height along it, turned
+///            about the axis: u runs along the profile, v with the angle. A line makes disks,
+///            cylinders and cones; an arc spheres and tori; a cubic any vase.
+///  swept     a profile in space, moved: p(u, v) = profile(u) + v sweep
+///  bicubic   Bézier's, of 16 points: point[4 j + i] by the i-th polynomial of u and j-th of v
+/// Trimmed to a rectangle of (s, t), the parameters of the whole: s = low.x + u (high.x - low.x),
+/// and t likewise; where low exceeds high the surface runs, and faces, the other way.
+struct Curve {
+    enum class Kind : std::uint8_t { revolved, swept, bicubic };
+    enum class Profile : std::uint8_t { line, arc, cubic };
+    Kind kind = Kind::revolved;
+    Profile profile = Profile::line;
+    glm::dvec2 low{0}, high{1};
+    glm::dmat3 frame{1};   ///< revolved: its columns are x, y and the axis, all unit
+    glm::dvec3 origin{0};  ///< revolved: of distance and height
+    /// Turns of 2π that t = 0 … 1 is: 1 for a whole solid. Zero point of angles: frame's x.
+    double turn = 1;
+    glm::dvec3 sweep{0};
+    /// A revolved profile's are (distance, height, 0). line: two points; cubic: four; arc: centre +
+    /// radius (cos, sin) of an angle from start to end, swept arcs in the plane of point[1],
+    /// point[2], both unit, about point[0].
+    std::array<glm::dvec3, 16> point{};
+    double radius = 0, start = 0, end = 0;
+};
+
+/// A piece of the scene with a (u, v) grid, 0 ≤ u, v ≤ 1, and u + v ≤ 1 on a triangle. Planar ones:
+/// point(u, v) = p0 + u (p1 - p0) + v (p_last - p0). Corners run counter-clockwise seen from the
 /// front: triangle p0 p1 p2, parallelogram p0 p1 p2 p3 with p2 = p1 + p3 - p0 up to rounding.
+/// Curved ones have the corners' places and Shape::parallelogram, and points by their curve.
 struct Surface {
     std::array<std::uint32_t, 4> corner{};  ///< indices into Scene::positions; [3] = none: triangle
     std::uint32_t material = 0;             ///< index into Scene::materials
     std::uint32_t object = 0;               ///< index into Scene::objects
-    std::uint32_t grid_u = 0;               ///< cells along u and v; 0: from the wanted patch size
-    std::uint32_t grid_v = 0;
+    std::uint16_t grid_u = 0;               ///< cells along u and v; 0: from the wanted patch size
+    std::uint16_t grid_v = 0;
+    std::uint32_t curve = none;  ///< index into Scene::curves, or none: planar
 
     Shape shape() const { return corner[3] == none ? Shape::triangle : Shape::parallelogram; }
+    bool is_curved() const { return curve != none; }
     /// The corner at (u, v) = (0, 1).
     std::uint32_t corner_v() const { return corner[3] == none ? corner[2] : corner[3]; }
 };
@@ -140,6 +171,7 @@ struct Scene {
     std::uint32_t bands = 3;
     std::vector<glm::dvec3> positions;  ///< welded: equal positions have one index
     std::vector<Surface> surfaces;
+    std::vector<Curve> curves;
     std::vector<SurfaceAttributes> attributes;  ///< empty, or one a surface
     /// Empty, or one a surface, affine in (u, v) as attributes are: the file's second texture
     /// coordinates, for lightmaps; not a number where a mesh has none. Read only when asked for.
@@ -211,10 +243,18 @@ Scene load_scene(const std::filesystem::path& file, const LoadSettings& settings
 
 /// point(u, v) of a surface.
 glm::dvec3 surface_point(const Scene& scene, const Surface& surface, double u, double v);
-/// Unit normal of the front, (p1 - p0) × (p_last - p0).
+/// Unit normal of the front, (p1 - p0) × (p_last - p0); of a curved surface, in its middle.
 glm::dvec3 surface_normal(const Scene& scene, const Surface& surface);
-/// Area in square metres.
+/// The same at one point.
+glm::dvec3 surface_normal(const Scene& scene, const Surface& surface, double u, double v);
+/// Area in square metres: in closed form, of cubic curves by quadrature to 10⁻¹⁰ of it.
 double surface_area(const Scene& scene, const Surface& surface);
+/// Area of the cell (iu, iv) of nu × nv; planar surfaces have equal ones.
+double cell_area(const Scene& scene, const Surface& surface, std::uint32_t nu, std::uint32_t nv,
+                 std::uint32_t iu, std::uint32_t iv);
+bool has_curves(const Scene& scene);
+/// Throws Fault::input, which says what cannot be done, where a scene has curved surfaces.
+void refuse_curves(const Scene& scene, const std::string& what);
 /// Reflectance of a side and emission at one point: factor × texture × vertex colour. Reflectance
 /// is clamped to [0, 0.999 - transmittance].
 Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v,
@@ -229,7 +269,8 @@ struct Bounds {
     glm::dvec3 low{0};
     glm::dvec3 high{0};
 };
-/// Of all corners in use; both zero for an empty scene.
+/// Of all corners in use, and of curved surfaces no more than 1 % of their size too large; both
+/// zero for an empty scene.
 Bounds scene_bounds(const Scene& scene);
 /// True when every edge is shared by an even number of faces: each line then meets an even number
 /// of surfaces.

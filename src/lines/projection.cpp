@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/facets.h"
 #include "lines/fill_surface.h"
 #include "lines/hit_layers.h"
 #include "lines/painter.h"
@@ -28,13 +29,29 @@ void check_spacing(double spacing, double radius) {
                                       "choose a larger --line-spacing");
 }
 
-Projector::Projector(const Scene& scene, const Patches& patches, Surfaces surfaces)
-    : scene_(scene), patches_(patches) {
-    LineSphere sphere = line_sphere(scene);
+namespace {
+
+// Nothing for planar scenes.
+std::shared_ptr<const Facets> facets_of(const Scene& scene, const Patches& patches,
+                                        double spacing) {
+    if (!has_curves(scene))
+        return nullptr;
+    if (!(spacing > 0))
+        spacing = 1e-3 * line_sphere(scene).radius;
+    return std::make_shared<Facets>(make_facets(scene, patches, spacing / 8));
+}
+
+}  // namespace
+
+Projector::Projector(const Scene& scene, const Patches& patches, Surfaces surfaces, double spacing)
+    : facets_(facets_of(scene, patches, spacing)),
+      scene_(facets_ ? facets_->scene : scene),
+      patches_(facets_ ? facets_->patches : patches) {
+    LineSphere sphere = line_sphere(scene_);
     centre_ = sphere.centre;
     radius_ = sphere.radius;
-    if (surfaces == Surfaces::any && scene.surfaces.size() <= PlaneSides::most_surfaces)
-        sides_ = std::make_shared<PlaneSides>(scene);
+    if (surfaces == Surfaces::any && scene_.surfaces.size() <= PlaneSides::most_surfaces)
+        sides_ = std::make_shared<PlaneSides>(scene_);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "lines/depth_order.h"
+#include "lines/facets.h"
 #include "lines/fill_surface.h"
 #include "lines/sort_hits.h"
 #include "lines/surface_view.h"
@@ -70,6 +71,9 @@ void Projector::lists(const Projection& projection, std::size_t tile, Workspace&
                             top + static_cast<std::int32_t>(line) / columns, workspace.slack,
                             workspace.relations, begin, end);
     }
+    if (facets_)
+        for (Hit& hit : lists.hits)
+            hit.surface = facets_->parent[hit.surface];
 }
 
 }  // namespace parallux

@@ -10,6 +10,7 @@
 #include <xmmintrin.h>
 #include <glm/geometric.hpp>
 
+#include "lines/ray_curves.h"
 #include "parallel.h"
 #include "parallux/error.h"
 
@@ -30,15 +31,7 @@ DenormalsOff::~DenormalsOff() {
 
 namespace {
 
-// A query's own data behind Embree's context.
-struct Query {
-    RTCIntersectContext context;
-    const std::vector<std::uint32_t>* surface_of[2];
-    std::uint32_t skip_a = none, skip_b = none;
-    std::vector<SurfaceHit>* hits = nullptr;
-};
-
-SurfaceHit to_hit(const Query& query, unsigned geometry, unsigned primitive, float u, float v,
+SurfaceHit to_hit(const RayQuery& query, unsigned geometry, unsigned primitive, float u, float v,
                   float t, float along_normal) {
     SurfaceHit hit;
     hit.surface = (*query.surface_of[geometry])[primitive];
@@ -51,7 +44,7 @@ SurfaceHit to_hit(const Query& query, unsigned geometry, unsigned primitive, flo
 
 // Leaves out the surfaces that the query skips, and gathers all others where a list is wanted.
 void filter(const RTCFilterFunctionNArguments* arguments) {
-    auto* query = reinterpret_cast<Query*>(arguments->context);
+    auto* query = reinterpret_cast<RayQuery*>(arguments->context);
     for (unsigned i = 0; i < arguments->N; ++i) {
         if (arguments->valid[i] != -1)
             continue;
@@ -85,6 +78,8 @@ struct RayScene::Data {
     RTCScene scene = nullptr;
     glm::dvec3 centre{0};
     std::vector<std::uint32_t> surface_of[2];  // geometry 0: triangles, 1: quads
+    std::unique_ptr<RayCurves> curves;         // geometry 2; null: there are none
+    double near = 0;  // metres within which a curved surface does not see itself
 
     ~Data() {
         if (scene)
@@ -99,7 +94,7 @@ struct RayScene::Data {
         std::vector<unsigned> corners;
         for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
             const Surface& surface = source.surfaces[s];
-            if ((surface.shape() == Shape::parallelogram) != quads)
+            if (surface.is_curved() || (surface.shape() == Shape::parallelogram) != quads)
                 continue;
             members.push_back(s);
             corners.insert(corners.end(), surface.corner.begin(),
@@ -130,12 +125,24 @@ struct RayScene::Data {
         rtcReleaseGeometry(geometry);
     }
 
-    Query query() const {
-        Query q;
+    RayQuery query() const {
+        RayQuery q;
         rtcInitIntersectContext(&q.context);
         q.surface_of[0] = &surface_of[0];
         q.surface_of[1] = &surface_of[1];
+        q.surface_of[2] = curves ? &curves->surfaces() : nullptr;
+        q.near = static_cast<float>(near);
         return q;
+    }
+
+    void add_curves(const Scene& source) {
+        if (!has_curves(source))
+            return;
+        curves = std::make_unique<RayCurves>(source, centre);
+        RTCGeometry geometry = curves->geometry(device);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene, geometry, 2);
+        rtcReleaseGeometry(geometry);
     }
 
     RTCRay ray(const glm::dvec3& origin, const glm::dvec3& direction, double far) const {
@@ -169,6 +176,8 @@ RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_uniqu
     rtcSetSceneBuildQuality(data_->scene, RTC_BUILD_QUALITY_MEDIUM);
     data_->add(scene, 0);
     data_->add(scene, 1);
+    data_->near = 1e-5 * glm::length(bounds.high - bounds.low);
+    data_->add_curves(scene);
     // Built inside an arena of so many threads; Embree's own setting would bind the whole process.
     unsigned workers = std::min(thread_count(threads), thread_count(0));
     tbb::task_arena arena(static_cast<int>(workers));
@@ -182,7 +191,7 @@ RayScene::~RayScene() = default;
 SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& direction, double far,
                              std::uint32_t skip) const {
     DenormalsOff guard;
-    Query query = data_->query();
+    RayQuery query = data_->query();
     query.skip_a = skip;
     RTCRayHit r{};
     r.ray = data_->ray(origin, direction, far);
@@ -197,9 +206,10 @@ SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& directi
 bool RayScene::blocked(const glm::dvec3& a, const glm::dvec3& b, std::uint32_t skip_a,
                        std::uint32_t skip_b) const {
     DenormalsOff guard;
-    Query query = data_->query();
+    RayQuery query = data_->query();
     query.skip_a = skip_a;
     query.skip_b = skip_b;
+    query.near /= static_cast<float>(std::max(glm::distance(a, b), 1e-30));
     RTCRay r = data_->ray(a, b - a, 1);
     rtcOccluded1(data_->scene, &query.context, &r);
     return r.tfar < 0;
@@ -209,7 +219,7 @@ void RayScene::all(const glm::dvec3& origin, const glm::dvec3& direction, double
                    std::vector<SurfaceHit>& hits) const {
     DenormalsOff guard;
     hits.clear();
-    Query query = data_->query();
+    RayQuery query = data_->query();
     query.hits = &hits;
     RTCRayHit r{};
     r.ray = data_->ray(origin, direction, far);
@@ -220,9 +230,17 @@ void RayScene::all(const glm::dvec3& origin, const glm::dvec3& direction, double
     std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
         return a.t != b.t ? a.t < b.t : a.surface < b.surface;
     });
-    hits.erase(std::unique(
-                   hits.begin(), hits.end(),
-                   [](const SurfaceHit& a, const SurfaceHit& b) { return a.surface == b.surface; }),
+    // A line meets a plane once, and a curved surface as often as it likes.
+    const std::vector<std::uint32_t>* planes = data_->surface_of;
+    const bool curved = data_->curves != nullptr;
+    auto is_curved = [&](std::uint32_t surface) {
+        return curved && !std::binary_search(planes[0].begin(), planes[0].end(), surface) &&
+               !std::binary_search(planes[1].begin(), planes[1].end(), surface);
+    };
+    hits.erase(std::unique(hits.begin(), hits.end(),
+                           [&](const SurfaceHit& a, const SurfaceHit& b) {
+                               return a.surface == b.surface && !is_curved(a.surface);
+                           }),
                hits.end());
 }
 

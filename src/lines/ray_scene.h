@@ -43,7 +43,8 @@ public:
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// The nearest crossing with t in (0, far], surface `skip` left out; .surface == none: nothing.
+    /// The nearest crossing with t in (0, far], surface `skip` left out (a curved one,
+    /// which may see itself, only next to the origin); .surface == none: nothing.
     SurfaceHit closest(const glm::dvec3& origin, const glm::dvec3& direction, double far,
                        std::uint32_t skip = none) const;
 

@@ -9,6 +9,7 @@
 #include "lines/ray_scene.h"
 #include "parallux/error.h"
 #include "parallux/lines.h"
+#include "surfaces/curve.h"
 
 namespace parallux {
 
@@ -21,6 +22,19 @@ LineSphere line_sphere(const Scene& scene, double wanted_radius) {
             if (corner != none)
                 sphere.radius =
                     std::max(sphere.radius, glm::distance(sphere.centre, scene.positions[corner]));
+    // About a curve's own box, which is a little too large: so that no point is left out.
+    for (const Curve& curve : scene.curves) {
+        const Bounds box = curve_bounds(curve, 0, 1, 0, 1, 64);
+        const double bound = glm::distance(sphere.centre, 0.5 * (box.low + box.high)) +
+                             0.5 * glm::length(box.high - box.low);
+        double farthest = 0;
+        for (int k = 0; k <= 64 * 65; ++k)
+            farthest = std::max(farthest, glm::distance(sphere.centre,
+                                                        curve_at(curve, k % 65 / 64.0,
+                                                                 k / 65 / 64.0)
+                                                            .at));
+        sphere.radius = std::max(sphere.radius, std::min(bound, 1.005 * farthest));
+    }
     if (wanted_radius <= 0)
         wanted_radius = scene.line_sphere;
     if (wanted_radius > 0) {
@@ -41,7 +55,7 @@ void order_coincident(const Scene& scene, std::vector<SurfaceHit>& hits, float s
     for (std::size_t k = 1; k < hits.size(); ++k) {
         SurfaceHit &a = hits[k - 1], &b = hits[k];
         if (b.t - a.t <= same && b.back && !a.back &&
-            !touch(scene.surfaces[a.surface], scene.surfaces[b.surface]))
+            a.surface != b.surface && !touch(scene.surfaces[a.surface], scene.surfaces[b.surface]))
             std::swap(a, b);
     }
 }

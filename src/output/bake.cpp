@@ -33,11 +33,13 @@ public:
 
     void run() {
         for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
-            std::uint32_t cells = bake_.settings.mesh == BakeMesh::original
-                                      ? 1
-                                      : cell_count(scene_.surfaces[s].shape(), patches_.grids[s]);
+            // A curved surface is no face of the original mesh: it goes as its cells.
+            const bool whole = bake_.settings.mesh == BakeMesh::original &&
+                               !scene_.surfaces[s].is_curved();
+            std::uint32_t cells =
+                whole ? 1 : cell_count(scene_.surfaces[s].shape(), patches_.grids[s]);
             for (std::uint32_t cell = 0; cell < cells; ++cell)
-                add(s, bake_.settings.mesh == BakeMesh::original ? none : cell);
+                add(s, whole ? none : cell);
         }
         builder_.finish();
     }

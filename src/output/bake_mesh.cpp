@@ -140,10 +140,13 @@ FaceFrame face_frame(const Scene& scene, const Patches& patches, std::uint32_t s
         const glm::dvec2 uv = corners.uv[back ? (corners.count - k) % corners.count : k];
         BakeCorner& corner = frame.face.corner[k];
         // Corners as the file has them: the fourth one is only nearly where the axes put it.
-        const bool far = uv.x == 1 && uv.y == 1 && surface.shape() == Shape::parallelogram;
+        const bool far = uv.x == 1 && uv.y == 1 && surface.shape() == Shape::parallelogram &&
+                         !surface.is_curved();
         corner.position =
             far ? scene.positions[surface.corner[2]] : surface_point(scene, surface, uv.x, uv.y);
-        corner.normal = normal;
+        corner.normal = surface.is_curved()
+                            ? surface_normal(scene, surface, uv.x, uv.y) * (back ? -1.0 : 1.0)
+                            : normal;
         if (!scene.attributes.empty())
             corner.uv0 = affine_at(scene.attributes[s].uv0, uv);
         frame.uv[k] = uv;

@@ -45,6 +45,18 @@ public:
             result.share = 0;
             return result;
         }
+        // A curved cell is taken to be exposed, in its middle: the plane of its corners is not it.
+        const Surface& first = scene_.surfaces[result.surface];
+        if (first.is_curved()) {
+            const std::uint32_t piece = pieces_.of_patch(patch).front();
+            const SurfaceGrid& grid = patches_.grids[result.surface];
+            const double u = (pieces_.cell(piece) % grid.nu + 0.5) / grid.nu;
+            const double v = (pieces_.cell(piece) / grid.nu + 0.5) / grid.nv;
+            result.mean = result.seen = surface_point(scene_, first, u, v);
+            result.normal =
+                surface_normal(scene_, first, u, v) * (pieces_.back(piece) ? -1.0 : 1.0);
+            return result;
+        }
         // Ask a few points; measure with many where they disagree.
         std::vector<glm::dvec3> exposed;
         int points = few_points;

@@ -128,6 +128,7 @@ BakeSettings as_bake(const LightmapSettings& settings) {
 
 Lightmap make_lightmap(const Scene& scene, const Patches& patches, const Solution& solution,
                        const LightmapSettings& settings) {
+    refuse_curves(scene, "lightmaps are of planar ones; use --bake");
     Lightmap lightmap;
     lightmap.settings = settings;
     lightmap.bands = solution.bands;

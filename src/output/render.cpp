@@ -140,7 +140,7 @@ private:
         const SurfaceGrid& grid = patches_.grids[hit.surface];
         sight.patch = (hit.back ? grid.back : grid.front) +
                       cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v);
-        sight.normal = surface_normal(scene_, surface) * (hit.back ? -1.0 : 1.0);
+        sight.normal = surface_normal(scene_, surface, hit.u, hit.v) * (hit.back ? -1.0 : 1.0);
         sight.albedo = surface_reflectance(scene_, hit.surface, hit.u, hit.v, hit.back);
         const std::uint32_t bands = solution_.bands;
         if (settings_.flat) {

@@ -41,7 +41,15 @@ private:
             one(value);
     }
     void one(const Spectrum& s) { one(s.value); }
-    void one(const Surface& s) { add(s.corner, s.material, s.object, s.grid_u, s.grid_v); }
+    void one(const Surface& s) {
+        add(s.corner, s.material, s.object, std::uint32_t(s.grid_u), std::uint32_t(s.grid_v));
+        if (s.is_curved())
+            add(s.curve);
+    }
+    void one(const Curve& c) {
+        add(c.kind, c.profile, c.low, c.high, c.frame[0], c.frame[1], c.frame[2], c.origin, c.turn,
+            c.sweep, c.point, c.radius, c.start, c.end);
+    }
     void one(const SurfaceAttributes& a) { add(a.uv0, a.uv1, a.colour); }
     void one(const Texture& t) { add(t.width, t.height, t.texels); }
     void one(const Material& m) {
@@ -71,6 +79,8 @@ std::uint64_t scene_hash(const Scene& scene, const Patches& patches) {
     sum.add(scene.bands, scene.positions, scene.surfaces, scene.attributes, scene.materials,
             scene.objects, scene.textures, scene.lights, scene.sky, scene.period);
     sum.add(patches.bands, patches.grids, patches.area, patches.reflectance, patches.emission);
+    if (has_curves(scene))
+        sum.add(scene.curves);
     if (patches.translucent())
         sum.add(patches.transmittance, patches.other);
     return sum.value();

@@ -104,7 +104,7 @@ std::uint32_t grow_clusters(const Scene& scene, const std::vector<double>& surfa
                             double size, double crease, std::vector<std::uint32_t>& cluster_of) {
     std::vector<bool> small(scene.surfaces.size());
     for (std::size_t s = 0; s < small.size(); ++s)
-        small[s] = surface_areas[s] < 0.5 * size * size;
+        small[s] = !scene.surfaces[s].is_curved() && surface_areas[s] < 0.5 * size * size;
     Adjacency adjacency = small_neighbours(scene, small);
     cluster_of.assign(scene.surfaces.size(), none);
     Growth growth{scene, surface_areas, adjacency, size, std::cos(crease), cluster_of};

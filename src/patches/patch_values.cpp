@@ -84,13 +84,17 @@ void set_patch_values(const Scene& scene, const std::vector<double>& surface_are
         for (std::uint32_t cell = 0; cell < cells; ++cell)
             for (std::uint32_t first : {grid.front, grid.back})
                 if (first != none)
-                    patches.area[first + cell] += surface_areas[s] / cells;
+                    patches.area[first + cell] +=
+                        scene.surfaces[s].is_curved()
+                            ? cell_area(scene, scene.surfaces[s], grid.nu, grid.nv, cell % grid.nu,
+                                        cell / grid.nu)
+                            : surface_areas[s] / cells;
     }
     for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
         const SurfaceGrid& grid = patches.grids[s];
-        double cell_area = surface_areas[s] / (static_cast<double>(grid.nu) * grid.nv);
-        bool fine = cell_area < 0.25 * patches.size * patches.size;
+        double equal_area = surface_areas[s] / (static_cast<double>(grid.nu) * grid.nv);
+        bool fine = equal_area < 0.25 * patches.size * patches.size;
         int points = varies(scene, surface) ? (fine ? 2 : 8) : 1;
         const bool own_back = scene.materials[surface.material].own_back;
         CellValues sides[2];
@@ -106,7 +110,7 @@ void set_patch_values(const Scene& scene, const std::vector<double>& surface_are
                     continue;
                 const CellValues& values = sides[back];
                 std::size_t patch = first + cell.index;
-                double weight = cell_area / patches.area[patch];
+                double weight = surface.is_curved() ? 1 : equal_area / patches.area[patch];
                 // A patch of one surface takes the values as they are, to the last bit.
                 if (weight > 1 - 1e-9)
                     weight = 1;

@@ -8,6 +8,7 @@
 #include "parallux/error.h"
 #include "patches/clusters.h"
 #include "patches/patch_values.h"
+#include "surfaces/curve.h"
 
 namespace parallux {
 
@@ -41,10 +42,27 @@ std::uint32_t cells(double length, double size) {
     return n < 1 ? 1u : static_cast<std::uint32_t>(n);
 }
 
+// The lengths of a curved surface along u and v: those of its middle lines, which have the area of
+// the whole for a product.
+glm::dvec2 curve_lengths(const Curve& curve, double area) {
+    constexpr int steps = 64;
+    glm::dvec2 length(0);
+    for (int k = 0; k < steps; ++k) {
+        const double from = double(k) / steps, to = double(k + 1) / steps;
+        length.x += glm::distance(curve_at(curve, from, 0.5).at, curve_at(curve, to, 0.5).at);
+        length.y += glm::distance(curve_at(curve, 0.5, from).at, curve_at(curve, 0.5, to).at);
+    }
+    return length * std::sqrt(area / (length.x * length.y));
+}
+
 void choose_grid(const Scene& scene, const Surface& surface, double area, double size,
                  SurfaceGrid& grid) {
     const glm::dvec3& origin = scene.positions[surface.corner[0]];
-    if (surface.shape() == Shape::triangle) {
+    if (surface.is_curved()) {
+        const glm::dvec2 length = curve_lengths(scene.curves[surface.curve], area);
+        grid.nu = cells(length.x, size);
+        grid.nv = cells(length.y, size);
+    } else if (surface.shape() == Shape::triangle) {
         // n² similar triangles of about size².
         grid.nu = grid.nv = cells(std::sqrt(area), size);
     } else {
@@ -137,7 +155,8 @@ std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches,
         const SurfaceGrid& grid = patches.grids[s];
         const std::size_t cells = static_cast<std::size_t>(grid.nu) * grid.nv;
         const glm::dvec3 normal = surface_normal(scene, surface);
-        const double area = surface_area(scene, surface) / static_cast<double>(cells);
+        const double equal =
+            surface.is_curved() ? 0 : surface_area(scene, surface) / static_cast<double>(cells);
         for (std::uint32_t side : {grid.front, grid.back}) {
             if (side == none || side >= end || side + cells <= first)
                 continue;
@@ -153,7 +172,14 @@ std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches,
                     place.iv = c.iv;
                     place.back = back;
                 }
-                const double weight = area / patches.area[patch];
+                if (surface.is_curved()) {
+                    place.centre = surface_point(scene, surface, c.centre_u, c.centre_v);
+                    place.normal = surface_normal(scene, surface, c.centre_u, c.centre_v);
+                    if (back)
+                        place.normal = -place.normal;
+                    return;
+                }
+                const double weight = equal / patches.area[patch];
                 place.centre += weight * surface_point(scene, surface, c.centre_u, c.centre_v);
                 place.normal += weight * (back ? -normal : normal);
             });

@@ -21,6 +21,7 @@ Eigen::VectorXd band_of(const Patches& patches, const std::vector<float>& values
 }  // namespace
 
 Eigen::MatrixXd exact_factors(const Scene& scene, const Patches& patches, unsigned threads) {
+    refuse_curves(scene, "exact form factors are of planar ones");
     const auto n = static_cast<Eigen::Index>(patches.count());
     Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(n, n);
     const std::vector<Emitter> cells = all_cells(scene, patches);

@@ -37,9 +37,9 @@ public:
             double p[4];
             for (double& x : p)
                 x = random.uniform();
+            const EmitterPlace place = place_on(run_.scene, *from, p[0], p[1]);
             SurfaceHit hit =
-                run_.rays->closest(point_on(run_.scene, *from, p[0], p[1]),
-                                   cosine_direction(emitter_normal(run_.scene, *from), p[2], p[3]),
+                run_.rays->closest(place.point, cosine_direction(place.normal, p[2], p[3]),
                                    std::numeric_limits<double>::infinity(), from->surface);
             ++totals.counts.lines;
             std::uint32_t patch = patch_of(run_.scene, run_.patches, hit);

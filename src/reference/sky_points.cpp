@@ -18,11 +18,11 @@ constexpr std::uint32_t rays_a_cell = 256;
 // Irradiance from the sky on one cell. Every cell takes a run of its own of one long sequence.
 Spectrum sky_on(const Run& run, const Emitter& cell, const Sobol& sobol, std::uint32_t number) {
     Spectrum sum;
-    glm::dvec3 normal = emitter_normal(run.scene, cell);
     for (std::uint32_t k = 0; k < rays_a_cell; ++k) {
         std::array<double, Sobol::dimensions> p = sobol.point(number * rays_a_cell + k);
-        glm::dvec3 direction = cosine_direction(normal, p[3], p[4]);
-        SurfaceHit hit = run.rays->closest(point_on(run.scene, cell, p[1], p[2]), direction,
+        const EmitterPlace place = place_on(run.scene, cell, p[1], p[2]);
+        glm::dvec3 direction = cosine_direction(place.normal, p[3], p[4]);
+        SurfaceHit hit = run.rays->closest(place.point, direction,
                                            std::numeric_limits<double>::infinity(), cell.surface);
         if (hit.surface != none)
             continue;
@@ -52,8 +52,8 @@ void add_sky_points(const Run& run, DirectLight& direct) {
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const Emitter& cell = cells[k];
         const SurfaceGrid& grid = run.patches.grids[cell.surface];
-        double area = surface_area(run.scene, run.scene.surfaces[cell.surface]) /
-                      (static_cast<double>(grid.nu) * grid.nv);
+        double area = cell_area(run.scene, run.scene.surfaces[cell.surface], grid.nu, grid.nv,
+                                cell.cell.iu, cell.cell.iv);
         for (std::uint32_t band = 0; band < bands; ++band) {
             std::size_t at = cell.patch * std::size_t(bands) + band;
             std::int64_t received =

@@ -93,6 +93,7 @@ Scene scene_of(const std::filesystem::path& file, std::string bytes, const LoadS
         scene.period = {glm::dvec3(0), glm::dvec3(0)};
         scene.period[0].x = settings.period[0] * settings.scale;
         scene.period[1][second] = settings.period[1] * settings.scale;
+        refuse_curves(scene, "those do not repeat; take the period away");
         if (auto wrong = settle_period(scene))
             throw Error(Fault::usage, printable(file.string(), 400) + ": " + *wrong);
     }

@@ -133,6 +133,10 @@ void SceneBuilder::store(const Surface& surface, const SurfaceAttributes* attrib
 
 bool SceneBuilder::add(const Surface& surface) {
     const auto& p = scene_.positions;
+    if (surface.is_curved()) {
+        store(surface, nullptr);
+        return true;
+    }
     scene_.triangles += surface.shape() == Shape::triangle ? 1 : 2;
     if (!has_area(p[surface.corner[0]], p[surface.corner[1]], p[surface.corner_v()])) {
         scene_.zero_area += surface.shape() == Shape::triangle ? 1 : 2;

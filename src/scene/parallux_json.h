@@ -51,7 +51,14 @@ private:
     void read_box(const JsonView& json, std::uint32_t object);
     void read_grid(const JsonView& json, Surface& surface) const;
     void read_mesh(const JsonView& json);
+    std::uint32_t own_material(const JsonView& json);
     double largest_coordinate() const;
+
+    // parallux_curves.cpp: what of it is curved
+    static const char* curved_kind(const JsonView& json);  ///< null: planar
+    void read_curved(const JsonView& json, std::uint32_t object);
+    void read_trim(const JsonView& json, Curve& curve) const;
+    void add_curve(const JsonView& json, Curve curve, std::uint32_t object);
 
     SceneBuilder& builder_;
     Scene& scene_;

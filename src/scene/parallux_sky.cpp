@@ -51,6 +51,8 @@ void ParalluxReader::read_period() {
     if (!json)
         return;
     json->only({"comment", "x", "y"});
+    if (has_curves(scene_))
+        json->fail("scenes with curved surfaces do not repeat");
     const double scale = scale_ * builder_.settings().scale;
     int count = 0;
     for (const char* key : {"x", "y"})

@@ -67,6 +67,8 @@ double ParalluxReader::largest_coordinate() const {
                 {extent, largest(box->at("low").vector()), largest(box->at("high").vector())});
             continue;
         }
+        if (curved_kind(json))
+            continue;  // theirs are welded by place when they are cut
         JsonView points = json.at(json.has("parallelogram") ? "parallelogram" : "triangle");
         for (std::size_t k = 0; k < points.size(); ++k)
             extent = std::max(extent, largest(points.at(k).vector()));
@@ -80,10 +82,20 @@ void ParalluxReader::read_surfaces() {
     snapper_ = &snapper;
     for (std::size_t i = 0; list && i < list->size(); ++i) {
         JsonView json = list->at(i);
-        json.only({"name", "comment", "parallelogram", "triangle", "box", "grid", "material",
-                   "materials", "turn"});
-        if (json.has("parallelogram") + json.has("triangle") + json.has("box") != 1)
-            json.fail("must have one of parallelogram, triangle and box");
+        json.only({"name", "comment", "parallelogram", "triangle", "box", "disk", "sphere",
+                   "cylinder", "cone", "torus", "bilinear", "bicubic", "swept", "revolved", "trim",
+                   "turned", "grid", "material", "materials", "turn"});
+        int kinds = 0;
+        for (const char* one : {"parallelogram", "triangle", "box", "disk", "sphere", "cylinder",
+                                "cone", "torus", "bilinear", "bicubic", "swept", "revolved"})
+            kinds += json.has(one);
+        if (kinds != 1)
+            json.fail("must have one of parallelogram, triangle, box, disk, sphere, cylinder, "
+                      "cone, torus, bilinear, bicubic, swept and revolved");
+        const bool is_curved = curved_kind(json) != nullptr;
+        for (const char* key : {"trim", "turned"})
+            if (!is_curved && json.has(key))
+                json.at(key).fail("is for curved surfaces only");
         bool is_box = json.has("box");
         for (const char* key : {"materials", "turn"})
             if (!is_box && json.has(key))
@@ -91,7 +103,9 @@ void ParalluxReader::read_surfaces() {
         std::string kind = is_box ? "box" : "surface";
         std::uint32_t object =
             add_object(scene_, json.text_or("name", kind + " " + std::to_string(i)));
-        is_box ? read_box(json, object) : read_flat(json, object);
+        is_curved ? read_curved(json, object)
+        : is_box  ? read_box(json, object)
+                  : read_flat(json, object);
     }
     auto meshes = root_.find("meshes");
     for (std::size_t i = 0; meshes && i < meshes->size(); ++i)
@@ -105,12 +119,20 @@ void ParalluxReader::read_grid(const JsonView& json, Surface& surface) const {
         return;
     if (grid->size() != 2)
         grid->fail("must have two whole numbers");
-    surface.grid_u = static_cast<std::uint32_t>(grid->at(std::size_t(0)).count(1u << 15));
-    surface.grid_v = static_cast<std::uint32_t>(grid->at(1).count(1u << 15));
+    surface.grid_u = static_cast<std::uint16_t>(grid->at(std::size_t(0)).count(1u << 15));
+    surface.grid_v = static_cast<std::uint16_t>(grid->at(1).count(1u << 15));
     if (surface.grid_u == 0 || surface.grid_v == 0)
         grid->fail("must be 1 or more");
     if (surface.shape() == Shape::triangle && surface.grid_u != surface.grid_v)
         grid->fail("must be the same number twice on a triangle");
+}
+
+std::uint32_t ParalluxReader::own_material(const JsonView& json) {
+    if (json.has("material"))
+        return material(json.at("material"));
+    if (default_ == none)
+        default_ = add_material(scene_, default_material(builder_.settings(), false));
+    return default_;
 }
 
 void ParalluxReader::read_flat(const JsonView& json, std::uint32_t object) {
@@ -127,13 +149,7 @@ void ParalluxReader::read_flat(const JsonView& json, std::uint32_t object) {
         surface.corner = {snapper_->weld(a), snapper_->weld(a + b), snapper_->weld(a + b + c),
                           snapper_->weld(a + c)};
     surface.object = object;
-    if (json.has("material")) {
-        surface.material = material(json.at("material"));
-    } else {
-        if (default_ == none)
-            default_ = add_material(scene_, default_material(builder_.settings(), false));
-        surface.material = default_;
-    }
+    surface.material = own_material(json);
     read_grid(json, surface);
     builder_.add(surface);
 }

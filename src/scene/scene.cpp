@@ -5,8 +5,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/facets.h"
+#include "parallux/error.h"
 #include "scene/loaders.h"
 #include "scene/texture_lookup.h"
+#include "surfaces/curve.h"
 
 namespace parallux {
 namespace {
@@ -49,20 +52,48 @@ void multiply_texture(const Scene& scene, Spectrum& spectrum, std::uint32_t text
 }  // namespace
 
 glm::dvec3 surface_point(const Scene& scene, const Surface& surface, double u, double v) {
+    if (surface.is_curved())
+        return curve_at(scene.curves[surface.curve], u, v).at;
     Frame f = frame_of(scene, surface);
     return f.origin + u * f.u + v * f.v;
 }
 
+glm::dvec3 surface_normal(const Scene& scene, const Surface& surface, double u, double v) {
+    return surface.is_curved() ? curve_normal(scene.curves[surface.curve], u, v)
+                               : surface_normal(scene, surface);
+}
+
 glm::dvec3 surface_normal(const Scene& scene, const Surface& surface) {
+    if (surface.is_curved())
+        return curve_normal(scene.curves[surface.curve], 0.5, 0.5);
     Frame f = frame_of(scene, surface);
     // Unit edges first: the cross product of tiny or huge ones could leave the range of a double.
     return glm::normalize(glm::cross(glm::normalize(f.u), glm::normalize(f.v)));
 }
 
 double surface_area(const Scene& scene, const Surface& surface) {
+    if (surface.is_curved())
+        return curve_area(scene.curves[surface.curve], 0, 1, 0, 1);
     Frame f = frame_of(scene, surface);
     double area = glm::length(glm::cross(f.u, f.v));
     return surface.shape() == Shape::triangle ? area / 2 : area;
+}
+
+double cell_area(const Scene& scene, const Surface& surface, std::uint32_t nu, std::uint32_t nv,
+                 std::uint32_t iu, std::uint32_t iv) {
+    if (!surface.is_curved())
+        return surface_area(scene, surface) / (static_cast<double>(nu) * nv);
+    return curve_area(scene.curves[surface.curve], double(iu) / nu, double(iu + 1) / nu,
+                      double(iv) / nv, double(iv + 1) / nv);
+}
+
+bool has_curves(const Scene& scene) {
+    return !scene.curves.empty();
+}
+
+void refuse_curves(const Scene& scene, const std::string& what) {
+    if (has_curves(scene))
+        throw Error(Fault::input, scene.file.string() + ": has curved surfaces, and " + what);
 }
 
 bool Material::is_translucent() const {
@@ -114,10 +145,20 @@ Bounds scene_bounds(const Scene& scene) {
                 bounds.low = glm::min(bounds.low, scene.positions[c]);
                 bounds.high = glm::max(bounds.high, scene.positions[c]);
             }
+    for (const Curve& curve : scene.curves) {
+        const Bounds own = curve_bounds(curve, 0, 1, 0, 1, 64);
+        bounds.low = glm::min(bounds.low, own.low);
+        bounds.high = glm::max(bounds.high, own.high);
+    }
     return bounds;
 }
 
 bool is_closed(const Scene& scene) {
+    if (has_curves(scene)) {
+        Patches cells;
+        cells.grids.resize(scene.surfaces.size(), {0, none, 1, 1});
+        return is_closed(make_facets(scene, cells, HUGE_VAL).scene);
+    }
     std::vector<std::uint64_t> edges;
     edges.reserve(4 * scene.surfaces.size());
     for (const Surface& s : scene.surfaces) {

@@ -115,7 +115,7 @@ private:
         if (patch == none)
             return;
         const double cosine =
-            std::abs(glm::dot(direction, surface_normal(scene_, scene_.surfaces[hit.surface])));
+            std::abs(glm::dot(direction, surface_normal(scene_, scene_.surfaces[hit.surface], hit.u, hit.v)));
         const double share =
             cosine_share(patch, glm::dot(normal, direction) * cosine / (pi * hit.t * hit.t));
         for (std::uint32_t band = 0; band < patches_.bands; ++band) {
@@ -131,12 +131,13 @@ private:
                         double b, Reading& sum) const {
         const std::size_t piece = emitters_.choose(which);
         const Emitter& source = emitters_.pieces[piece];
-        const glm::dvec3 to = point_on(scene_, source, a, b), way = to - from;
+        const auto [to, normal_there] = place_on(scene_, source, a, b);
+        const glm::dvec3 way = to - from;
         const double distance = glm::length(way);
         if (!(distance > 0))
             return;
         const double cosine = glm::dot(normal, way) / distance;
-        const double cosine_there = -glm::dot(emitter_normal(scene_, source), way) / distance;
+        const double cosine_there = -glm::dot(normal_there, way) / distance;
         if (cosine <= 0 || cosine_there <= 0 || rays_.blocked(from, to, none, source.surface))
             return;
         const double density = cosine * cosine_there / (pi * distance * distance);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "lines/directions.h"
+#include "surfaces/curve.h"
 
 namespace parallux {
 
@@ -19,12 +20,17 @@ void for_all_cells(const Scene& scene, const Patches& patches, Visit&& visit) {
     for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         const SurfaceGrid& grid = patches.grids[s];
         Shape shape = scene.surfaces[s].shape();
-        double area =
-            surface_area(scene, scene.surfaces[s]) / (static_cast<double>(grid.nu) * grid.nv);
+        const bool curved = scene.surfaces[s].is_curved();
+        double equal = curved ? 0
+                              : surface_area(scene, scene.surfaces[s]) /
+                                    (static_cast<double>(grid.nu) * grid.nv);
         for (std::uint32_t first : {grid.front, grid.back})
             if (first != none)
                 for_each_cell(shape, grid, [&](const Cell& cell) {
-                    visit(Emitter{s, first + cell.index, first == grid.back, cell}, area);
+                    // A curved cell is a patch of its own.
+                    const std::uint32_t patch = first + cell.index;
+                    visit(Emitter{s, patch, first == grid.back, cell},
+                          curved ? patches.area[patch] : equal);
                 });
     }
 }
@@ -179,6 +185,17 @@ glm::dvec3 cosine_direction(const glm::dvec3& normal, double a, double b) {
     frame_across(normal, x, y);
     double r = std::sqrt(a), angle = 2 * pi * b;
     return r * std::cos(angle) * x + r * std::sin(angle) * y + std::sqrt(1 - a) * normal;
+}
+
+EmitterPlace place_on(const Scene& scene, const Emitter& emitter, double a, double b) {
+    const Surface& surface = scene.surfaces[emitter.surface];
+    if (!surface.is_curved())
+        return {point_on(scene, emitter, a, b), emitter_normal(scene, emitter)};
+    const Curve& curve = scene.curves[surface.curve];
+    const Cell& c = emitter.cell;
+    const glm::dvec2 uv = curve_place(curve, c.u0, c.u0 + c.du, c.v0, c.v0 + c.dv, a, b);
+    const glm::dvec3 normal = curve_normal(curve, uv.x, uv.y);
+    return {curve_at(curve, uv.x, uv.y).at, emitter.back ? -normal : normal};
 }
 
 Polygon polygon_of(const Scene& scene, const Emitter& emitter) {

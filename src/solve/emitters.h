@@ -70,16 +70,23 @@ private:
     std::vector<double> share_;  // of the patch's area
 };
 
-/// A uniform point of an emitter's cell from two numbers of [0, 1).
+/// A uniform point of an emitter's cell from two numbers of [0, 1), and the unit normal there of the
+/// side that emits.
+struct EmitterPlace {
+    glm::dvec3 point, normal;
+};
+EmitterPlace place_on(const Scene& scene, const Emitter& emitter, double a, double b);
+
+/// The point alone, of planar surfaces.
 glm::dvec3 point_on(const Scene& scene, const Emitter& emitter, double a, double b);
 
 /// A direction by the cosine law about a unit normal, from two numbers of [0, 1).
 glm::dvec3 cosine_direction(const glm::dvec3& normal, double a, double b);
 
-/// The cell, its corners counter-clockwise seen from the side that emits.
+/// The cell of a planar surface, its corners counter-clockwise seen from the side that emits.
 Polygon polygon_of(const Scene& scene, const Emitter& emitter);
 
-/// Unit normal of the side that emits.
+/// Unit normal of the side that emits, of planar surfaces.
 glm::dvec3 emitter_normal(const Scene& scene, const Emitter& emitter);
 
 }  // namespace parallux

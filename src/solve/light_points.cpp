@@ -10,6 +10,7 @@
 #include "parallel.h"
 #include "patches/patch_values.h"
 #include "solve/far_shadow.h"
+#include "surfaces/curve.h"
 
 namespace parallux {
 
@@ -118,8 +119,9 @@ void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, unsig
     const Surface& surface = scene.surfaces[s];
     const SurfaceGrid& grid = run.patches.grids[s];
     const glm::dvec3 front = surface_normal(scene, surface);
-    const double cell_area =
-        surface_area(scene, surface) / (static_cast<double>(grid.nu) * grid.nv);
+    const bool curved = surface.is_curved();
+    const double equal_area =
+        curved ? 0 : surface_area(scene, surface) / (static_cast<double>(grid.nu) * grid.nv);
     const bool triangle = surface.shape() == Shape::triangle;
     for (std::uint32_t first : {grid.front, grid.back}) {
         if (first == none)
@@ -134,13 +136,23 @@ void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, unsig
                     a = 1 - a;
                     b = 1 - b;
                 }
-                const glm::dvec3 point =
-                    surface_point(scene, surface, cell.u0 + a * cell.du, cell.v0 + b * cell.dv);
-                const Place place{*run.rays, point, normal, static_cast<std::uint32_t>(s),
-                                  k,         shadow};
+                glm::dvec2 uv(cell.u0 + a * cell.du, cell.v0 + b * cell.dv);
+                glm::dvec3 up = normal;
+                double area = equal_area;
+                if (curved) {
+                    const Curve& curve = scene.curves[surface.curve];
+                    area = run.patches.area[first + cell.index];
+                    uv = curve_place(curve, cell.u0, cell.u0 + cell.du, cell.v0,
+                                     cell.v0 + cell.dv, a, b);
+                    up = curve_normal(curve, uv.x, uv.y);
+                    if (first != grid.front)
+                        up = -up;
+                }
+                const glm::dvec3 point = surface_point(scene, surface, uv.x, uv.y);
+                const Place place{*run.rays, point, up, static_cast<std::uint32_t>(s), k, shadow};
                 for (const Light& light : scene.lights) {
                     const double flux =
-                        arrives(place, light) * cell_area / (points_a_side * points_a_side);
+                        arrives(place, light) * area / (points_a_side * points_a_side);
                     for (std::uint32_t band = 0; flux > 0 && band < bands; ++band)
                         watts[band] += flux * light.intensity[band];
                 }

@@ -24,7 +24,8 @@ LineSweep::LineSweep(const Run& run, const TransferState& state, Direction direc
       direction_(direction),
       sky_(run.scene.sky.kind == Sky::Kind::dark ? 0 : sky),
       buffers_(run.plan.threads),
-      projector_(run.scene, run.patches) {
+      projector_(run.scene, run.patches, Projector::Surfaces::any,
+                 run.plan.spacing > 0 ? run.plan.spacing : run.plan.sphere.radius) {
     for (Buffers& buffers : buffers_)
         buffers.workspace = projector_.make_workspace();
     if (run.banks.shared())

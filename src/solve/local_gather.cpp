@@ -39,9 +39,10 @@ public:
             const Emitter& from = cells_.choose(k, random.uniform());
             const double a = random.uniform(), b = random.uniform(), c = random.uniform(),
                          d = random.uniform();
-            const glm::dvec3 direction = cosine_direction(emitter_normal(run_.scene, from), c, d);
+            const EmitterPlace place = place_on(run_.scene, from, a, b);
+            const glm::dvec3 direction = cosine_direction(place.normal, c, d);
             const SurfaceHit hit =
-                run_.rays->closest(point_on(run_.scene, from, a, b), direction,
+                run_.rays->closest(place.point, direction,
                                    std::numeric_limits<double>::infinity(), from.surface);
             if (hit.surface == none) {
                 const Spectrum sky = run_.scene.sky.radiance(direction);

@@ -49,7 +49,7 @@ std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
 bool is_exact_cheap(const Scene& scene, const Patches& patches, const Plan& plan,
                     std::uint64_t rays) {
     constexpr double rays_a_pair = 25, worth = 4;
-    if (scene.surfaces.size() > ExactShot::few_surfaces)
+    if (has_curves(scene) || scene.surfaces.size() > ExactShot::few_surfaces)
         return false;
     const double pairs =
         static_cast<double>(count_sources(scene, patches)) * static_cast<double>(patches.count());
@@ -83,6 +83,8 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
     std::uint64_t rays =
         settings.first_shot_rays ? settings.first_shot_rays : default_rays(patches, plan);
     plan.first_shot = settings.first_shot;
+    if (plan.first_shot == FirstShot::exact)
+        refuse_curves(scene, "exact form factors are of planar ones; use --first-shot rays");
     if (plan.first_shot == FirstShot::automatic) {
         if (local || settings.method == Method::matrix)
             plan.first_shot = FirstShot::off;

@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "patches/patch_values.h"
+
 namespace parallux {
 
 namespace {
@@ -66,6 +68,16 @@ std::vector<Key> object_numbers(const Scene& scene, std::size_t most) {
 // Sets the keys of a surface's cells, both sides.
 void key_cells(const Scene& scene, const Surface& surface, const SurfaceGrid& grid, Key number,
                const Cubes& cubes, std::vector<Key>& keys) {
+    if (surface.is_curved()) {
+        for_each_cell(surface.shape(), grid, [&](const Cell& c) {
+            const Key way = facing(surface_normal(scene, surface, c.centre_u, c.centre_v));
+            const Key cube = cubes.key(surface_point(scene, surface, c.centre_u, c.centre_v));
+            keys[grid.front + c.index] = (number << 4 | way) << (3 * levels) | cube;
+            if (grid.back != none)
+                keys[grid.back + c.index] = (number << 4 | 8 | (way ^ 1)) << (3 * levels) | cube;
+        });
+        return;
+    }
     const glm::dvec3 p = scene.positions[surface.corner[0]];
     const glm::dvec3 u = scene.positions[surface.corner[1]] - p;
     const glm::dvec3 v = scene.positions[surface.corner_v()] - p;

@@ -86,9 +86,12 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
         std::array<double, Sobol::dimensions> p = sobol.point(static_cast<std::uint32_t>(ray));
         std::size_t piece = emitters.choose(at);
         const Emitter& emitter = emitters.pieces[piece];
+        const EmitterPlace place =
+            run.scene.surfaces[emitter.surface].is_curved()
+                ? place_on(run.scene, emitter, p[0], p[1])
+                : EmitterPlace{point_on(run.scene, emitter, p[0], p[1]), normal_of(emitter, last)};
         SurfaceHit hit =
-            run.rays->closest(point_on(run.scene, emitter, p[0], p[1]),
-                              cosine_direction(normal_of(emitter, last), p[2], p[3]),
+            run.rays->closest(place.point, cosine_direction(place.normal, p[2], p[3]),
                               std::numeric_limits<double>::infinity(), emitter.surface);
         std::uint32_t patch = patch_of(run.scene, run.patches, hit);
         // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.

@@ -52,8 +52,8 @@ bool is_covered(const Run& run, const PatchCells& cells, std::size_t k) {
     for (int place = 0; place < places; ++place) {
         const double a = (place + 0.5) / places, b = std::fmod(place * 0.375 + 0.0625, 1.0);
         const Emitter& cell = cells.choose(k, a);
-        const glm::dvec3 point = point_on(run.scene, cell, a, b);
-        const glm::dvec3 up = near * emitter_normal(run.scene, cell);
+        const auto [point, normal] = place_on(run.scene, cell, a, b);
+        const glm::dvec3 up = near * normal;
         if (run.rays->blocked(point - up, point + up, cell.surface))
             return true;
     }

@@ -25,6 +25,8 @@ private:
         std::uint32_t node;
         glm::dvec3 area;  // m², along the normal
     };
+    void add_curved(const Curve& curve, const SurfaceGrid& grid, const NodeMap& nodes);
+
     std::vector<Piece> pieces_;
     std::size_t nodes_;
 };

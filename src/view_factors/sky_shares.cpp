@@ -84,13 +84,13 @@ Mean refined_sky(const Side& side, double tolerance, SkyBlockers::View& view) {
 
 bool sky_from_points(const Scene& scene, const Patches& patches, const FactorSettings& settings,
                      double line_spacing) {
-    const bool can = !is_periodic(scene) && settings.sky_parts == SkyParts::whole;
+    const bool can = !is_periodic(scene) && !has_curves(scene) && settings.sky_parts == SkyParts::whole;
     if (settings.sky_from == SkyFrom::lines)
         return false;
     if (settings.sky_from == SkyFrom::points && !can)
         throw Error(Fault::usage,
-                    "sky factors from points are of scenes that do not repeat, and of the whole "
-                    "sky");
+                    "sky factors from points are of scenes that do not repeat, of planar surfaces, "
+                    "and of the whole sky");
     if (settings.sky_from == SkyFrom::points || !can)
         return can;
     // As measured: a cell takes some 0.9 µs for each face, a line 20 ns.

@@ -1,0 +1,336 @@
+#include "lines/facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "parallux/error.h"
+#include "surfaces/curve.h"
+
+namespace parallux {
+
+namespace {
+
+constexpr double bend = 1.0 / 72, same_place = 1e-9;
+
+// Gives nearly equal positions one number: that of a planar surface's corner where there is one.
+class Welder {
+public:
+    Welder(const Scene& scene, std::vector<glm::dvec3>& positions, double tolerance)
+        : positions_(positions), tolerance_(tolerance) {
+        std::vector<bool> known(positions.size());
+        for (const Surface& surface : scene.surfaces)
+            for (std::uint32_t corner : surface.corner)
+                if (!surface.is_curved() && corner != none && !known[corner]) {
+                    known[corner] = true;
+                    cells_.emplace(key(positions[corner]), corner);
+                }
+    }
+
+    std::uint32_t weld(const glm::dvec3& p) {
+        // The cells that the box about it touches: one as a rule.
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec3 way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+            auto [begin, end] = cells_.equal_range(key(p + tolerance_ * way));
+            for (; begin != end; ++begin)
+                if (glm::distance(positions_[begin->second], p) <= tolerance_)
+                    return begin->second;
+        }
+        const auto number = static_cast<std::uint32_t>(positions_.size());
+        positions_.push_back(p);
+        cells_.emplace(key(p), number);
+        return number;
+    }
+
+private:
+    std::uint64_t key(const glm::dvec3& p) const {
+        std::uint64_t key = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            key = (key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(
+                             std::floor(p[axis] / (16 * tolerance_))))) *
+                  0x9E3779B97F4A7C15u;
+        return key;
+    }
+
+    std::vector<glm::dvec3>& positions_;
+    double tolerance_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
+};
+
+// A curved surface cut along u and v; corners row by row.
+struct Cut {
+    std::uint32_t surface;
+    std::vector<double> u, v;
+    std::vector<std::uint32_t> corner;
+
+    std::uint32_t at(std::size_t i, std::size_t j) const { return corner[j * u.size() + i]; }
+};
+
+// An edge of a facet that lies on its surface's own edge, and the corners of others on it.
+struct Rim {
+    std::uint32_t surface, from, to;
+    glm::dvec2 uv_from, uv_to;
+    struct Taken {
+        double along;
+        std::uint32_t corner;
+    };
+    std::vector<Taken> taken = {};
+};
+
+class Cutter {
+public:
+    Cutter(const Scene& scene, const Patches& patches, double chord)
+        : scene_(scene), patches_(patches), chord_(chord) {
+        const Bounds bounds = scene_bounds(scene);
+        tolerance_ = same_place * glm::length(bounds.high - bounds.low);
+        facets_.scene.positions = scene.positions;
+    }
+
+    Facets cut() {
+        Welder welder(scene_, facets_.scene.positions, tolerance_);
+        for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s)
+            if (!scene_.surfaces[s].is_curved())
+                keep(s);
+        for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s)
+            if (scene_.surfaces[s].is_curved())
+                cut(s, welder);
+        find_rims();
+        take_corners();
+        for (const Cut& cut : cuts_)
+            emit(cut);
+        for (const Rim& rim : rims_)
+            emit(rim);
+        return std::move(facets_);
+    }
+
+private:
+    void keep(std::uint32_t s) {
+        facets_.scene.surfaces.push_back(scene_.surfaces[s]);
+        facets_.patches.grids.push_back(patches_.grids[s]);
+        facets_.parent.push_back(s);
+    }
+
+    void cut(std::uint32_t s, Welder& welder) {
+        const Curve& curve = scene_.curves[scene_.surfaces[s].curve];
+        const SurfaceGrid& grid = patches_.grids[s];
+        Cut cut{s, curve_cuts(curve, true, grid.nu, chord_, bend),
+                curve_cuts(curve, false, grid.nv, chord_, bend), {}};
+        while (twisted(curve, cut)) {
+            halve(cut.u);
+            halve(cut.v);
+        }
+        count_ += 2 * cut.u.size() * cut.v.size();
+        if (count_ > std::size_t(1) << 28)
+            throw Error(Fault::memory, "curved surfaces would be cut into more than 2^28 "
+                                       "triangles; choose a larger --line-spacing");
+        for (std::size_t j = 0; j < cut.v.size(); ++j)
+            for (std::size_t i = 0; i < cut.u.size(); ++i) {
+                const glm::dvec3 p = curve_at(curve, cut.u[i], cut.v[j]).at;
+                if (i == 0 || j == 0 || i + 1 == cut.u.size() || j + 1 == cut.v.size()) {
+                    cut.corner.push_back(welder.weld(p));
+                } else {
+                    cut.corner.push_back(static_cast<std::uint32_t>(facets_.scene.positions.size()));
+                    facets_.scene.positions.push_back(p);
+                }
+            }
+        cuts_.push_back(std::move(cut));
+    }
+
+    // Whether the diagonal of any quad lies too far from the surface.
+    bool twisted(const Curve& curve, const Cut& cut) const {
+        for (std::size_t j = 0; j + 1 < cut.v.size(); ++j)
+            for (std::size_t i = 0; i + 1 < cut.u.size(); ++i) {
+                const glm::dvec3 a = curve_at(curve, cut.u[i], cut.v[j]).at;
+                const glm::dvec3 b = curve_at(curve, cut.u[i + 1], cut.v[j + 1]).at;
+                const CurvePoint middle = curve_at(curve, 0.5 * (cut.u[i] + cut.u[i + 1]),
+                                                   0.5 * (cut.v[j] + cut.v[j + 1]));
+                const glm::dvec3 normal = glm::cross(middle.per_u, middle.per_v);
+                const double length = glm::length(normal);
+                if (length > 0 && std::fabs(glm::dot(middle.at - 0.5 * (a + b), normal)) >
+                                      2.5 * length * std::min(chord_, bend * glm::distance(a, b)) +
+                                          length * tolerance_)
+                    return true;
+            }
+        return false;
+    }
+
+    static void halve(std::vector<double>& cuts) {
+        std::vector<double> finer;
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+            finer.push_back(cuts[k]);
+            finer.push_back(0.5 * (cuts[k] + cuts[k + 1]));
+        }
+        finer.push_back(cuts.back());
+        cuts = std::move(finer);
+    }
+
+    void find_rims() {
+        // Round every surface as its facets go.
+        for (const Cut& cut : cuts_) {
+            const std::size_t nu = cut.u.size() - 1, nv = cut.v.size() - 1;
+            auto add = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+                add_rim(cut.surface, cut.at(i, j), cut.at(k, l), {cut.u[i], cut.v[j]},
+                        {cut.u[k], cut.v[l]});
+            };
+            for (std::size_t i = 0; i < nu; ++i) {
+                add(i, 0, i + 1, 0);
+                add(i + 1, nv, i, nv);
+            }
+            for (std::size_t j = 0; j < nv; ++j) {
+                add(nu, j, nu, j + 1);
+                add(0, j + 1, 0, j);
+            }
+        }
+        curved_rims_ = rims_.size();
+        for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
+            const Surface& surface = scene_.surfaces[s];
+            if (surface.is_curved())
+                continue;
+            const bool triangle = surface.shape() == Shape::triangle;
+            const glm::dvec2 uv[4] = {{0, 0}, {1, 0}, triangle ? glm::dvec2(0, 1) : glm::dvec2(1),
+                                      {0, 1}};
+            const unsigned corners = triangle ? 3 : 4;
+            for (unsigned k = 0; k < corners; ++k)
+                add_rim(s, surface.corner[k], surface.corner[(k + 1) % corners], uv[k],
+                        uv[(k + 1) % corners]);
+        }
+    }
+
+    void add_rim(std::uint32_t s, std::uint32_t from, std::uint32_t to, glm::dvec2 uv_from,
+                 glm::dvec2 uv_to) {
+        if (from != to)
+            rims_.push_back({s, from, to, uv_from, uv_to});
+    }
+
+    glm::dvec3 on(const Rim& rim, double along) const {
+        const glm::dvec2 uv = rim.uv_from + along * (rim.uv_to - rim.uv_from);
+        return surface_point(scene_, scene_.surfaces[rim.surface], uv.x, uv.y);
+    }
+
+    // Every corner of a curved surface's edge, and planar corners for curved edges, by place.
+    void take_corners() {
+        struct Corner {
+            double x;
+            std::uint32_t number;
+            bool curved;
+        };
+        const std::vector<glm::dvec3>& positions = facets_.scene.positions;
+        std::vector<Corner> corners;
+        std::vector<std::uint8_t> seen(positions.size(), 0);
+        for (std::size_t r = 0; r < rims_.size(); ++r)
+            for (std::uint32_t corner : {rims_[r].from, rims_[r].to})
+                if (!seen[corner]) {
+                    seen[corner] = 1;
+                    corners.push_back({positions[corner].x, corner, r < curved_rims_});
+                }
+        std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+            return a.x != b.x ? a.x < b.x : a.number < b.number;
+        });
+        std::vector<Corner> of_curves;
+        for (const Corner& corner : corners)
+            if (corner.curved)
+                of_curves.push_back(corner);
+        for (std::size_t r = 0; r < rims_.size(); ++r) {
+            Rim& rim = rims_[r];
+            const bool curved = r < curved_rims_;
+            const glm::dvec3 a = positions[rim.from], b = positions[rim.to];
+            const double room =
+                tolerance_ + (curved ? 1.5 * std::min(chord_, bend * glm::distance(a, b)) : 0);
+            const glm::dvec3 low = glm::min(a, b) - room, high = glm::max(a, b) + room;
+            const std::vector<Corner>& others = curved ? corners : of_curves;
+            auto next = std::lower_bound(others.begin(), others.end(), low.x,
+                                         [](const Corner& c, double x) { return c.x < x; });
+            for (; next != others.end() && next->x <= high.x; ++next) {
+                const glm::dvec3& p = positions[next->number];
+                if (next->number == rim.from || next->number == rim.to || p.y < low.y ||
+                    p.y > high.y || p.z < low.z || p.z > high.z)
+                    continue;
+                take(rim, next->number, p);
+            }
+            std::sort(rim.taken.begin(), rim.taken.end(), [](const auto& c, const auto& d) {
+                return c.along != d.along ? c.along < d.along : c.corner < d.corner;
+            });
+        }
+    }
+
+    // Takes a corner up where it lies on the rim: its nearest point by golden section.
+    void take(Rim& rim, std::uint32_t corner, const glm::dvec3& p) const {
+        double from = 0, to = 1;
+        const double golden = 0.5 * (std::sqrt(5.0) - 1);
+        for (int step = 0; step < 80; ++step) {
+            const double a = to - golden * (to - from), b = from + golden * (to - from);
+            if (glm::distance(on(rim, a), p) < glm::distance(on(rim, b), p))
+                to = b;
+            else
+                from = a;
+        }
+        const double along = 0.5 * (from + to);
+        // The search ends at half of a double's digits.
+        const double length = glm::distance(on(rim, 0), on(rim, 1));
+        if (glm::distance(on(rim, along), p) <= 2 * tolerance_ + 1e-9 * length)
+            rim.taken.push_back({along, corner});
+    }
+
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t s,
+                  std::uint32_t cell) {
+        if (a == b || b == c || c == a)
+            return;
+        Surface facet;
+        facet.corner = {a, b, c, none};
+        facets_.scene.surfaces.push_back(facet);
+        const SurfaceGrid& grid = patches_.grids[s];
+        facets_.patches.grids.push_back(
+            {grid.front + cell, grid.back == none ? none : grid.back + cell, 1, 1});
+        facets_.parent.push_back(s);
+    }
+
+    std::uint32_t cell_of(std::uint32_t s, double u, double v) const {
+        const SurfaceGrid& grid = patches_.grids[s];
+        return cell_at(scene_.surfaces[s].shape(), grid.nu, grid.nv, static_cast<float>(u),
+                       static_cast<float>(v));
+    }
+
+    void emit(const Cut& cut) {
+        for (std::size_t j = 0; j + 1 < cut.v.size(); ++j)
+            for (std::size_t i = 0; i + 1 < cut.u.size(); ++i) {
+                const std::uint32_t cell = cell_of(cut.surface, 0.5 * (cut.u[i] + cut.u[i + 1]),
+                                                   0.5 * (cut.v[j] + cut.v[j + 1]));
+                const std::uint32_t a = cut.at(i, j), b = cut.at(i + 1, j),
+                                    c = cut.at(i + 1, j + 1), d = cut.at(i, j + 1);
+                triangle(a, b, c, cut.surface, cell);
+                triangle(a, c, d, cut.surface, cell);
+            }
+    }
+
+    // What lies between a facet's edge and the corners that it has taken up.
+    void emit(const Rim& rim) {
+        for (std::size_t k = 0; k < rim.taken.size(); ++k) {
+            const std::uint32_t next =
+                k + 1 < rim.taken.size() ? rim.taken[k + 1].corner : rim.to;
+            // A little within the surface, to be in the cell beside the edge.
+            const glm::dvec2 uv = rim.uv_from + rim.taken[k].along * (rim.uv_to - rim.uv_from);
+            const glm::dvec2 within = uv + 1e-6 * (glm::dvec2(0.4) - uv);
+            triangle(rim.from, rim.taken[k].corner, next, rim.surface,
+                     cell_of(rim.surface, within.x, within.y));
+        }
+    }
+
+    const Scene& scene_;
+    const Patches& patches_;
+    double chord_, tolerance_ = 0;
+    std::size_t count_ = 0, curved_rims_ = 0;
+    Facets facets_;
+    std::vector<Cut> cuts_;
+    std::vector<Rim> rims_;
+};
+
+}  // namespace
+
+Facets make_facets(const Scene& scene, const Patches& patches, double chord) {
+    return Cutter(scene, patches, chord).cut();
+}
+
+}  // namespace parallux
