@@ -1,6 +1,7 @@
 #include "lines/facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 
@@ -65,6 +66,7 @@ struct Cut {
     std::uint32_t surface;
     std::vector<double> u, v;
     std::vector<std::uint32_t> corner;
+    std::size_t first_rim = 0, end_rim = 0;
 
     std::uint32_t at(std::size_t i, std::size_t j) const { return corner[j * u.size() + i]; }
 };
@@ -78,6 +80,11 @@ struct Rim {
         std::uint32_t corner;
     };
     std::vector<Taken> taken = {};
+    bool parted = false;  ///< its facet has been parted at them
+
+    std::uint32_t end_of(std::size_t k) const {
+        return k + 1 < taken.size() ? taken[k + 1].corner : to;
+    }
 };
 
 class Cutter {
@@ -117,7 +124,7 @@ private:
         const Curve& curve = scene_.curves[scene_.surfaces[s].curve];
         const SurfaceGrid& grid = patches_.grids[s];
         Cut cut{s, curve_cuts(curve, true, grid.nu, chord_, bend),
-                curve_cuts(curve, false, grid.nv, chord_, bend), {}};
+                curve_cuts(curve, false, grid.nv, chord_, bend), {}, 0, 0};
         while (twisted(curve, cut)) {
             halve(cut.u);
             halve(cut.v);
@@ -169,7 +176,8 @@ private:
 
     void find_rims() {
         // Round every surface as its facets go.
-        for (const Cut& cut : cuts_) {
+        for (Cut& cut : cuts_) {
+            cut.first_rim = rims_.size();
             const std::size_t nu = cut.u.size() - 1, nv = cut.v.size() - 1;
             auto add = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
                 add_rim(cut.surface, cut.at(i, j), cut.at(k, l), {cut.u[i], cut.v[j]},
@@ -183,6 +191,7 @@ private:
                 add(nu, j, nu, j + 1);
                 add(0, j + 1, 0, j);
             }
+            cut.end_rim = rims_.size();
         }
         curved_rims_ = rims_.size();
         for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
@@ -293,27 +302,56 @@ private:
                        static_cast<float>(v));
     }
 
+    using Parts = std::unordered_map<std::uint64_t, Rim*>;
+
+    static std::uint64_t edge(std::uint32_t from, std::uint32_t to) {
+        return std::uint64_t(from) << 32 | to;
+    }
+
+    // A triangle, parted at the corners that one of its edges has taken up.
+    void parted_triangle(std::array<std::uint32_t, 3> c, const Parts& parts, std::uint32_t s,
+                         std::uint32_t cell) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto found = parts.find(edge(c[k], c[(k + 1) % 3]));
+            if (found == parts.end() || found->second->parted)
+                continue;
+            Rim& rim = *found->second;
+            rim.parted = true;
+            const std::uint32_t apex = c[(k + 2) % 3];
+            triangle(apex, rim.from, rim.taken[0].corner, s, cell);
+            for (std::size_t n = 0; n < rim.taken.size(); ++n)
+                triangle(apex, rim.taken[n].corner, rim.end_of(n), s, cell);
+            return;
+        }
+        triangle(c[0], c[1], c[2], s, cell);
+    }
+
     void emit(const Cut& cut) {
+        Parts parts;
+        for (std::size_t r = cut.first_rim; r < cut.end_rim; ++r)
+            if (!rims_[r].taken.empty())
+                parts.emplace(edge(rims_[r].from, rims_[r].to), &rims_[r]);
         for (std::size_t j = 0; j + 1 < cut.v.size(); ++j)
             for (std::size_t i = 0; i + 1 < cut.u.size(); ++i) {
                 const std::uint32_t cell = cell_of(cut.surface, 0.5 * (cut.u[i] + cut.u[i + 1]),
                                                    0.5 * (cut.v[j] + cut.v[j + 1]));
                 const std::uint32_t a = cut.at(i, j), b = cut.at(i + 1, j),
                                     c = cut.at(i + 1, j + 1), d = cut.at(i, j + 1);
-                triangle(a, b, c, cut.surface, cell);
-                triangle(a, c, d, cut.surface, cell);
+                parted_triangle({a, b, c}, parts, cut.surface, cell);
+                parted_triangle({a, c, d}, parts, cut.surface, cell);
             }
     }
 
-    // What lies between a facet's edge and the corners that it has taken up.
+    // What lies between a facet's edge and the corners that it has taken up: nothing but rounding
+    // where edges are straight, as those of planar surfaces.
     void emit(const Rim& rim) {
+        if (rim.parted)
+            return;
         for (std::size_t k = 0; k < rim.taken.size(); ++k) {
-            const std::uint32_t next =
-                k + 1 < rim.taken.size() ? rim.taken[k + 1].corner : rim.to;
             // A little within the surface, to be in the cell beside the edge.
             const glm::dvec2 uv = rim.uv_from + rim.taken[k].along * (rim.uv_to - rim.uv_from);
             const glm::dvec2 within = uv + 1e-6 * (glm::dvec2(0.4) - uv);
-            triangle(rim.from, rim.taken[k].corner, next, rim.surface,
+            triangle(rim.from, rim.taken[k].corner, rim.end_of(k), rim.surface,
                      cell_of(rim.surface, within.x, within.y));
         }
     }

@@ -133,7 +133,8 @@ TEST_CASE("no line of a bundle meets a solid an odd number of times, or twice fr
         CHECK(disagree == 0);
         CHECK(lines > 10000);
         MESSAGE(solid.name, ": hits that do not go in and out in turn: ", astray, " of ", lines);
-        CHECK(astray < 1e-3 * static_cast<double>(lines));
+        // Sheets that meet without an angle, as the pillow's, are in one place at their edge.
+        CHECK(astray <= 2);
     }
 }
 
