@@ -23,7 +23,10 @@ LineSphere line_sphere(const Scene& scene, double wanted_radius) {
                 sphere.radius =
                     std::max(sphere.radius, glm::distance(sphere.centre, scene.positions[corner]));
     // About a curve's own box, which is a little too large: so that no point is left out.
-    for (const Curve& curve : scene.curves) {
+    for (const Surface& surface : scene.surfaces) {
+        if (!surface.is_curved())
+            continue;
+        const Curve& curve = scene.curves[surface.curve];
         const Bounds box = curve_bounds(curve, 0, 1, 0, 1, 64);
         const double bound = glm::distance(sphere.centre, 0.5 * (box.low + box.high)) +
                              0.5 * glm::length(box.high - box.low);

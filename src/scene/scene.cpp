@@ -88,7 +88,9 @@ double cell_area(const Scene& scene, const Surface& surface, std::uint32_t nu, s
 }
 
 bool has_curves(const Scene& scene) {
-    return !scene.curves.empty();
+    return !scene.curves.empty() &&
+           std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                       [](const Surface& s) { return s.is_curved(); });
 }
 
 void refuse_curves(const Scene& scene, const std::string& what) {
@@ -145,8 +147,10 @@ Bounds scene_bounds(const Scene& scene) {
                 bounds.low = glm::min(bounds.low, scene.positions[c]);
                 bounds.high = glm::max(bounds.high, scene.positions[c]);
             }
-    for (const Curve& curve : scene.curves) {
-        const Bounds own = curve_bounds(curve, 0, 1, 0, 1, 64);
+    for (const Surface& s : scene.surfaces) {
+        if (!s.is_curved())
+            continue;
+        const Bounds own = curve_bounds(scene.curves[s.curve], 0, 1, 0, 1, 64);
         bounds.low = glm::min(bounds.low, own.low);
         bounds.high = glm::max(bounds.high, own.high);
     }
