@@ -43,7 +43,7 @@ double refine(const Curve& c, double u0, double u1, double v0, double v1, double
     };
     if (!split_v) {
         const double low = part(u0, u, v0, v1), high = part(u, u1, v0, v1);
-        if (std::fabs(low + high - whole) <= error || depth == 0)
+        if (!(std::fabs(low + high - whole) > error) || depth == 0)
             return low + high;
         return refine(c, u0, u, v0, v1, low, error / 2, depth - 1) +
                refine(c, u, u1, v0, v1, high, error / 2, depth - 1);
@@ -51,7 +51,7 @@ double refine(const Curve& c, double u0, double u1, double v0, double v1, double
     const double parts[4] = {part(u0, u, v0, v), part(u, u1, v0, v), part(u0, u, v, v1),
                              part(u, u1, v, v1)};
     const double sum = parts[0] + parts[1] + parts[2] + parts[3];
-    if (std::fabs(sum - whole) <= error || depth == 0)
+    if (!(std::fabs(sum - whole) > error) || depth == 0)
         return sum;
     return refine(c, u0, u, v0, v, parts[0], error / 4, depth - 1) +
            refine(c, u, u1, v0, v, parts[1], error / 4, depth - 1) +
@@ -106,7 +106,11 @@ double curve_area(const Curve& c, double u0, double u1, double v0, double v1) {
         return turn * c.radius * std::fabs(c.point[0].x * (a1 - a0) + c.radius * sines);
     }
     const double whole = gauss(u0, u1, [&](double u) { return strip(c, u, v0, v1); });
-    return refine(c, u0, u1, v0, v1, whole, 1e-11 * whole, 12);
+    // Far from the origin derivatives are known to the rounding of coordinates only.
+    double far = 0;
+    for (const glm::dvec2& uv : {glm::dvec2(u0, v0), glm::dvec2(u1, v1)})
+        far = std::max(far, glm::length(curve_at(c, uv.x, uv.y).at));
+    return refine(c, u0, u1, v0, v1, whole, 1e-11 * whole + 1e-15 * far * std::sqrt(whole), 12);
 }
 
 glm::dvec2 curve_place(const Curve& c, double u0, double u1, double v0, double v1, double a,

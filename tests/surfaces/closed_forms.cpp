@@ -26,9 +26,10 @@ TEST_CASE("inside a sphere, any emission and reflectance a patch") {
         }
         const double uniform = sent / kept;
         SolveSettings settings;
-        settings.bundles = 512;
+        settings.bundles = 256;
+        settings.groups = 8;
         settings.threads = 1;
-        settings.line_spacing = 0.02;
+        settings.line_spacing = 0.05;
         const Solution solution = solve(scene, patches, settings);
         double square = 0, bars = 0, mean = 0, area = 0;
         for (std::size_t k = 0; k < patches.count(); ++k) {
@@ -56,9 +57,9 @@ namespace {
 double factor(const Scene& scene, std::size_t from, std::size_t to) {
     FactorSettings settings;
     settings.between = FactorNodes::surfaces;
-    settings.bundles = 2048;
+    settings.bundles = 512;
     settings.threads = 1;
-    settings.line_spacing = 0.01 * std::sqrt(surface_area(scene, scene.surfaces[0]));
+    settings.line_spacing = 0.02 * std::sqrt(surface_area(scene, scene.surfaces[0]));
     const Factors factors = view_factors(scene, make_patches(scene), settings);
     for (std::uint64_t k = factors.start[from]; k < factors.start[from + 1]; ++k)
         if (factors.column[k] == to)
