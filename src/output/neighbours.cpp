@@ -30,15 +30,14 @@ public:
         std::vector<Edge> edges;
         std::vector<glm::dvec3> normal(scene.surfaces.size());
         edges.reserve(3 * scene.surfaces.size());
-        // Curved surfaces of one object and material are one smooth surface; where their normals
-        // differ they are parted pair by pair.
-        std::vector<std::uint32_t> curved(scene.objects.size() + 1, none);
+        // Curved surfaces of one material are one smooth surface; where their normals differ they
+        // are parted pair by pair.
+        std::vector<std::uint32_t> curved(scene.materials.size(), none);
         for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
             const Surface& surface = scene.surfaces[s];
             if (surface.is_curved()) {
-                std::uint32_t& other =
-                    curved[std::min<std::size_t>(surface.object, scene.objects.size())];
-                if (other != none && scene.surfaces[other].material == surface.material)
+                std::uint32_t& other = curved[surface.material];
+                if (other != none)
                     parent_[root(s)] = root(other);
                 other = s;
             }
