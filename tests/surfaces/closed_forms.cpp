@@ -45,10 +45,11 @@ TEST_CASE("inside a sphere, any emission and reflectance a patch") {
         }
         MESSAGE("grid ", n, ": H ", uniform, ", rms off ", std::sqrt(square / area), ", error bars ",
                 std::sqrt(bars / area), ", mean off ", mean / area);
-        CHECK(std::sqrt(square / area) < 0.02 * uniform);
-        CHECK(std::fabs(mean / area) < 2e-3 * uniform);
-        if (bars > 0)
-            CHECK(square < 4 * bars);
+        // 18 and more patches of 7 degrees of freedom each: the mean of squares is known to some
+        // tenths; what facets take away is less than a thousandth.
+        CHECK(bars > 0);
+        CHECK(square < 2 * bars);
+        CHECK(std::fabs(mean / area) < 3e-3 * uniform);
     }
 }
 
@@ -57,9 +58,9 @@ namespace {
 double factor(const Scene& scene, std::size_t from, std::size_t to) {
     FactorSettings settings;
     settings.between = FactorNodes::surfaces;
-    settings.bundles = 512;
+    settings.bundles = 4096;
     settings.threads = 1;
-    settings.line_spacing = 0.02 * std::sqrt(surface_area(scene, scene.surfaces[0]));
+    settings.line_spacing = 0.03 * std::sqrt(surface_area(scene, scene.surfaces[0]));
     const Factors factors = view_factors(scene, make_patches(scene), settings);
     for (std::uint64_t k = factors.start[from]; k < factors.start[from + 1]; ++k)
         if (factors.column[k] == to)
