@@ -47,7 +47,7 @@ struct Case {
         Surface s;
         s.corner = {position(p), position(p + a), position(p + a + b), position(p + b)};
         s.material = of_material;
-        s.grid_u = nu, s.grid_v = nv;
+        s.grid_u = static_cast<std::uint16_t>(nu), s.grid_v = static_cast<std::uint16_t>(nv);
         scene.surfaces.push_back(s);
     }
 
@@ -56,7 +56,7 @@ struct Case {
         Surface s;
         s.corner = {position(p), position(q), position(r), none};
         s.material = of_material;
-        s.grid_u = s.grid_v = n;
+        s.grid_u = s.grid_v = static_cast<std::uint16_t>(n);
         scene.surfaces.push_back(s);
     }
 

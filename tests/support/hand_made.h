@@ -39,7 +39,7 @@ void add_box(Scene& scene, Map&& corner, bool inward, std::uint32_t n,
             surface.corner[k] = first + faces[face][inward ? (4 - k) % 4 : k];
         surface.material = materials[face];
         surface.object = object;
-        surface.grid_u = surface.grid_v = n;
+        surface.grid_u = surface.grid_v = static_cast<std::uint16_t>(n);
         scene.surfaces.push_back(surface);
     }
 }
@@ -152,7 +152,7 @@ inline Scene l_room(const Material& wall, const Material& light, std::uint32_t n
         Surface surface;
         surface.corner = {a, b, c, d};
         surface.material = material;
-        surface.grid_u = surface.grid_v = n;
+        surface.grid_u = surface.grid_v = static_cast<std::uint16_t>(n);
         scene.surfaces.push_back(surface);
     };
     // Floors look up, ceilings down, walls inward: the outline runs counter-clockwise.

@@ -22,7 +22,7 @@ Scene court(std::uint32_t cells) {
     add_plate(scene, {1, 0, 0}, {0, 0, 0.7}, {0, 1, 0}, "right");
     add_plate(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 0.7}, "end");
     for (Surface& surface : scene.surfaces)
-        surface.grid_u = surface.grid_v = cells;
+        surface.grid_u = surface.grid_v = static_cast<std::uint16_t>(cells);
     return scene;
 }
 
