@@ -12,7 +12,7 @@ using namespace parallux::test;
 
 TEST_CASE("inside a sphere, any emission and reflectance a patch") {
     // F_ij = A_j / A, so that H is the same everywhere: H = Σ A E / Σ A (1 - ρ). Fails when areas or
-    // cells are wrong (planted: cells of equal area).
+    // cells are wrong.
     for (int n : {3, 8}) {
         Scene scene = curved_scene(R"({"sphere": {"centre": [0,0,0], "radius": 1, "inward": true},
             "grid": [)" + std::to_string(n) + ", " + std::to_string(2 * n) + "]}");

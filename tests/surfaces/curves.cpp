@@ -95,8 +95,7 @@ TEST_CASE("solids are closed, their facets face outward, and hold nearly the vol
 }
 
 TEST_CASE("no line of a bundle meets a solid an odd number of times, or twice from one side") {
-    // Fails when a rim's corners are not the same for both its surfaces (planted: take() left out;
-    // slivers left out).
+    // Fails when a rim's corners are not the same for both its surfaces (planted: take() left out).
     for (const Solid& solid : solids) {
         CAPTURE(solid.name);
         const Scene scene = curved_scene(solid.surfaces);
