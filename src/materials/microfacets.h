@@ -14,7 +14,7 @@ namespace parallux {
 /// stop is given back by the lobe of C. Kulla and A. Conty (2017): reciprocal, and nothing is lost.
 class Microfacets {
 public:
-    /// α of GGX, above 0. Takes a few milliseconds.
+    /// α of GGX, above 0. Takes some fifty milliseconds.
     explicit Microfacets(double alpha);
 
     /// Where light goes that came from unit `from`, from.z > 0: to.z > 0. `along_facet`: the cosine

@@ -91,7 +91,8 @@ private:
 
 class Tracer {
 public:
-    Tracer(const Scene& scene, unsigned threads) : scene_(scene), rays_(scene, threads) {
+    Tracer(const Scene& scene, const Patches& patches, unsigned threads)
+        : scene_(scene), patches_(patches), cells_(scene, patches), rays_(scene, threads) {
         for (const Material& material : scene.materials) {
             const double r = material.specular.roughness;
             rough_.push_back(r > 0 && material.specular.kind == Specular::Kind::mirror
@@ -100,9 +101,19 @@ public:
         }
     }
 
+    // From anywhere on a patch, by the cosine.
+    void leave(std::uint32_t patch, dvec3& from, dvec3& direction, std::uint32_t& skip,
+               Random& random) const {
+        const Emitter& cell = cells_.choose(patch, random.uniform());
+        const double a = random.uniform(), b = random.uniform();
+        from = point_on(scene_, cell, a, b);
+        direction = over_hemisphere(emitter_normal(scene_, cell), random);
+        skip = cell.surface;
+    }
+
     // What is seen from a point, which lies inside glass where the next thing met is its back.
     Bands radiance(dvec3 from, dvec3 direction, std::uint32_t skip, Random& random) const {
-        Bands seen{}, weight;
+        Bands seen{}, weight{};
         weight.fill(1);
         const Material* within = nullptr;
         for (int length = 0; length < 100'000; ++length) {
@@ -137,7 +148,7 @@ public:
             const double part = (shines ? share : 1) * (both ? 2 : 1);
             if (!shines) {
                 // What the diffuse part gets, as little of it as meets it, leaves by the cosine.
-                diffuse(hit, material, part * (1 - share), normal, direction, weight, random);
+                diffuse(hit, part * (1 - share), from, direction, skip, weight, random);
             } else if (shine.kind == Specular::Kind::mirror) {
                 mirror(hit, shine, part, normal, direction, weight, random);
             } else {
@@ -172,18 +183,21 @@ private:
         }
     }
 
-    void diffuse(const SurfaceHit& hit, const Material& material, double part, const dvec3& normal,
-                 dvec3& direction, Bands& weight, Random& random) const {
-        const Spectrum rho = surface_reflectance(scene_, hit.surface, hit.u, hit.v, hit.back);
+    // A patch sends the same from everywhere: the path goes on from anywhere on it.
+    void diffuse(const SurfaceHit& hit, double part, dvec3& from, dvec3& direction,
+                 std::uint32_t& skip, Bands& weight, Random& random) const {
+        const SurfaceGrid& grid = patches_.grids[hit.surface];
+        const std::uint32_t patch =
+            (hit.back ? grid.back : grid.front) +
+            cell_at(scene_.surfaces[hit.surface].shape(), grid.nu, grid.nv, hit.u, hit.v);
+        const std::uint32_t other = patches_.translucent() ? patches_.other[patch] : none;
         // Light comes from this side, or from the other one.
-        double through = 0;
+        const bool across = other != none && random.uniform() < 0.5;
         for (std::uint32_t b = 0; b < scene_.bands; ++b)
-            through = std::max<double>(through, material.transmittance_of(!hit.back)[b]);
-        const bool across = through > 0 && random.uniform() < 0.5;
-        for (std::uint32_t b = 0; b < scene_.bands; ++b)
-            weight[b] *= part * (through > 0 ? 2 : 1) *
-                         (across ? material.transmittance_of(!hit.back)[b] : rho[b]);
-        direction = over_hemisphere(across ? -normal : normal, random);
+            weight[b] *= part * (other != none ? 2 : 1) *
+                         (across ? patches_.transmittance[other * patches_.bands + b]
+                                 : patches_.reflectance[patch * patches_.bands + b]);
+        leave(across ? other : patch, from, direction, skip, random);
     }
 
     void mirror(const SurfaceHit& hit, const Specular& shine, double part, const dvec3& normal,
@@ -245,6 +259,8 @@ private:
     }
 
     const Scene& scene_;
+    const Patches& patches_;
+    PatchCells cells_;
     RayScene rays_;
     std::vector<std::unique_ptr<Rough>> rough_;  // a material
 };
@@ -274,8 +290,7 @@ PathEstimate estimate(std::uint64_t paths, std::uint32_t bands, double scale, Pa
 
 std::vector<PathEstimate> traced_irradiance(const Scene& scene, const Patches& patches,
                                             const PathSettings& settings) {
-    const Tracer tracer(scene, settings.threads);
-    const PatchCells cells(scene, patches);
+    const Tracer tracer(scene, patches, settings.threads);
     std::vector<PathEstimate> result(patches.count());
     parallel_for(settings.threads, patches.count(), 1, [&](std::size_t patch, std::size_t,
                                                           unsigned) {
@@ -285,19 +300,18 @@ std::vector<PathEstimate> traced_irradiance(const Scene& scene, const Patches& p
         DenormalsOff guard;
         Random random(settings.seed, stream::path_tracer + patch);
         result[patch] = estimate(settings.paths, patches.bands, pi * diffuse, [&] {
-            const Emitter& cell = cells.choose(patch, random.uniform());
-            const double a = random.uniform(), b = random.uniform();
-            return tracer.radiance(point_on(scene, cell, a, b),
-                                   over_hemisphere(emitter_normal(scene, cell), random),
-                                   cell.surface, random);
+            dvec3 from, direction;
+            std::uint32_t skip = none;
+            tracer.leave(static_cast<std::uint32_t>(patch), from, direction, skip, random);
+            return tracer.radiance(from, direction, skip, random);
         });
     });
     return result;
 }
 
-PathEstimate traced_radiance(const Scene& scene, const glm::dvec3& from,
+PathEstimate traced_radiance(const Scene& scene, const Patches& patches, const glm::dvec3& from,
                              const glm::dvec3& direction, const PathSettings& settings) {
-    const Tracer tracer(scene, settings.threads);
+    const Tracer tracer(scene, patches, settings.threads);
     DenormalsOff guard;
     Random random(settings.seed, stream::path_tracer);
     return estimate(settings.paths, scene.bands, 1,

@@ -8,7 +8,8 @@
 
 // The independent judge of scenes with mirrors and glass: plain path tracing back from a point, by
 // Embree, with materials of its own: reflection by evaluating GGX over the hemisphere, Fresnel by
-// its own formula. No light without area but suns with a disc, which are part of the sky.
+// its own formula. Patches send alike from all of their area, as in a solution. No light without
+// area but suns with a disc, which are part of the sky.
 
 namespace parallux {
 
@@ -28,7 +29,7 @@ std::vector<PathEstimate> traced_irradiance(const Scene& scene, const Patches& p
                                             const PathSettings& settings);
 
 /// Radiance that is seen from a point along a unit direction, W/(m² sr).
-PathEstimate traced_radiance(const Scene& scene, const glm::dvec3& from,
+PathEstimate traced_radiance(const Scene& scene, const Patches& patches, const glm::dvec3& from,
                              const glm::dvec3& direction, const PathSettings& settings);
 
 }  // namespace parallux
