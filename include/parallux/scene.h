@@ -39,11 +39,11 @@ struct Specular {
     /// Mirror: reflectance seen straight on. Glass: of what passes a surface. The material's
     /// reflectance_texture and vertex colours multiply it.
     Spectrum colour;
-    Spectrum grazing;      ///< mirror: reflectance at grazing incidence; Schlick's law between
-    float roughness = 0;   ///< mirror: √α of GGX, as glTF has it; 0: smooth
-    double ior = 1.5;      ///< glass: refractive index, 1 … 4
-    Spectrum absorption;   ///< glass: 1/m inside
-    bool thin = false;     ///< glass: a sheet
+    Spectrum grazing;     ///< mirror: reflectance at grazing incidence; Schlick's law between
+    float roughness = 0;  ///< mirror: √α of GGX, as glTF has it; 0: smooth
+    double ior = 1.5;     ///< glass: refractive index, 1 … 4
+    Spectrum absorption;  ///< glass: 1/m inside
+    bool thin = false;    ///< glass: a sheet
 };
 
 /// What a surface does with light. Values are per band; textures and vertex colours multiply them

@@ -47,8 +47,7 @@ Bounce off_mirror(const Specular& mirror, const Spectrum& tint, const Microfacet
                   Weights& weights) {
     double cosine = std::clamp(-glm::dot(in, normal), 0.0, 1.0);
     Bounce result;
-    result.direction =
-        rough ? scattered(*rough, in, normal, random, cosine) : mirrored(in, normal);
+    result.direction = rough ? scattered(*rough, in, normal, random, cosine) : mirrored(in, normal);
     // C. Schlick, An Inexpensive BRDF Model for Physically-based Rendering, 1994.
     const double grazing = std::pow(1 - cosine, 5);
     for (std::size_t band = 0; band < max_bands; ++band) {

@@ -26,10 +26,8 @@ glm::dvec3 seen_facet(double alpha, const glm::dvec3& w, double a, double b) {
     const glm::dvec3 y = glm::cross(stretched, x);
     const double radius = std::sqrt(a), angle = 2 * pi * b, part = 0.5 * (1 + stretched.z);
     const double u = radius * std::cos(angle);
-    const double v =
-        (1 - part) * std::sqrt(1 - u * u) + part * radius * std::sin(angle);
-    const glm::dvec3 n =
-        u * x + v * y + std::sqrt(std::max(0.0, 1 - u * u - v * v)) * stretched;
+    const double v = (1 - part) * std::sqrt(1 - u * u) + part * radius * std::sin(angle);
+    const glm::dvec3 n = u * x + v * y + std::sqrt(std::max(0.0, 1 - u * u - v * v)) * stretched;
     return glm::normalize(glm::dvec3(alpha * n.x, alpha * n.y, std::max(1e-12, n.z)));
 }
 
@@ -56,7 +54,8 @@ Microfacets::Microfacets(double alpha) : alpha_(alpha), single_(cosines + 1) {
                 const double t = (i + 0.5) / points_a_side;
                 const glm::dvec3 facet =
                     seen_facet(alpha, from, 1 - t * t * t, (j + 0.5) / points_a_side);
-                sum += 3 * t * t * (1 - passes(alpha, from, 2 * glm::dot(from, facet) * facet - from));
+                sum +=
+                    3 * t * t * (1 - passes(alpha, from, 2 * glm::dot(from, facet) * facet - from));
             }
         single_[k] = 1 - sum / (points_a_side * points_a_side);
         most_lost_ = std::max(most_lost_, 1 - single_[k]);

@@ -34,9 +34,8 @@ bool Walk::advance(Weights& passed) {
     }
     const SurfaceGrid& grid = walks_.patches.grids[hit_.surface];
     const std::uint32_t first = hit_.back ? grid.back : grid.front;
-    patch_ = first == none
-                 ? none
-                 : first + cell_at(surface.shape(), grid.nu, grid.nv, hit_.u, hit_.v);
+    patch_ =
+        first == none ? none : first + cell_at(surface.shape(), grid.nu, grid.nv, hit_.u, hit_.v);
     share_ = patch_ == none ? 0 : walks_.patches.specular_share(patch_);
     return true;
 }
@@ -51,9 +50,9 @@ double Walk::bounce(Random& random, Weights& passed) {
     const Specular& specular = scene.materials[surface.material].specular;
     const glm::dvec3 normal = surface_normal(scene, surface) * (hit_.back ? -1.0 : 1.0);
     const bool body = specular.kind == Specular::Kind::glass && !specular.thin;
-    const Bounce way = parallux::bounce(
-        specular, surface_tint(scene, hit_.surface, hit_.u, hit_.v), walks_.rough(surface.material),
-        direction_, normal, body && hit_.back, random, passed);
+    const Bounce way = parallux::bounce(specular, surface_tint(scene, hit_.surface, hit_.u, hit_.v),
+                                        walks_.rough(surface.material), direction_, normal,
+                                        body && hit_.back, random, passed);
     if (body)
         medium_ = way.through != hit_.back ? surface.material : none;
     origin_ = surface_point(scene, surface, hit_.u, hit_.v);
@@ -140,7 +139,9 @@ void carry(Walk walk, Quanta quanta, std::uint32_t bands, Random& random, const 
 void follow_sight(Walk walk, Weights weights, std::uint32_t bands, Random& random,
                   const std::function<void(const Walk&, const Weights&)>& visit,
                   const std::function<void(const glm::dvec3&, const Weights&)>& sky) {
-    const auto most_of = [&] { return *std::max_element(weights.begin(), weights.begin() + bands); };
+    const auto most_of = [&] {
+        return *std::max_element(weights.begin(), weights.begin() + bands);
+    };
     const double little = most_of() / 8;
     while (most_of() > 0) {
         if (!walk.advance(weights))

@@ -19,7 +19,8 @@ namespace parallux {
 namespace {
 
 constexpr double filter_radius = 0.75;  // of the tent over each pixel, in pixels
-constexpr int walks_a_sample = 8;       // off mirrors and through glass
+// Off mirrors and through glass; off rough mirrors, which may meet a lamp or not.
+constexpr int walks_a_sample = 8, rough_walks_a_sample = 32;
 
 struct Ray {
     glm::dvec3 origin, direction;
@@ -132,19 +133,29 @@ private:
         return {};
     }
 
+    // Mirrors or is glass all over, and emits nothing.
+    bool is_dark(std::uint32_t patch) const {
+        const float* emission = &patches_.emission[std::size_t(patch) * patches_.bands];
+        return patches_.specular_share(patch) == 1 &&
+               std::all_of(emission, emission + patches_.bands, [](float e) { return e == 0; });
+    }
+
     // What mirrors and glass show, beside what their diffuse part sends: sight is followed as walks
     // of light are.
-    void add_shown(const Ray& ray, const SurfaceHit& hit, Random& random, Spectrum& radiance) const {
+    void add_shown(const Ray& ray, const SurfaceHit& hit, Random& random,
+                   Spectrum& radiance) const {
         // Past backs that are seen through.
         const glm::dvec3 before =
             surface_point(scene_, scene_.surfaces[hit.surface], hit.u, hit.v) -
             1e-3 * double(hit.t) * ray.direction;
         const std::uint32_t bands = solution_.bands;
+        const int walks = walks_.rough(scene_.surfaces[hit.surface].material) ? rough_walks_a_sample
+                                                                              : walks_a_sample;
         Weights weights;
-        weights.fill(1.0 / walks_a_sample);
+        weights.fill(1.0 / walks);
         bool first = true;
         auto visit = [&](const Walk& walk, const Weights& at) {
-            if (std::exchange(first, false))
+            if (std::exchange(first, false) || is_dark(walk.patch()))
                 return;
             const Spectrum seen = of_patches(walk.hit(), walk.patch()).radiance;
             for (std::uint32_t b = 0; b < bands; ++b)
@@ -157,7 +168,7 @@ private:
             for (std::uint32_t b = 0; b < bands; ++b)
                 radiance[b] += static_cast<float>(at[b] * seen[b]);
         };
-        for (int k = 0; k < walks_a_sample; ++k, first = true)
+        for (int k = 0; k < walks; ++k, first = true)
             follow_sight(Walk(walks_, before, ray.direction), weights, bands, random, visit, sky);
     }
 

@@ -152,8 +152,8 @@ public:
             } else if (shine.kind == Specular::Kind::mirror) {
                 mirror(hit, shine, part, normal, direction, weight, random);
             } else {
-                const bool inside = glass(hit, shine, part, body, normal, direction, weight,
-                                          random);
+                const bool inside =
+                    glass(hit, shine, part, body, normal, direction, weight, random);
                 if (body)
                     within = inside ? &material : nullptr;
             }
@@ -246,8 +246,8 @@ private:
         // Radiance over n² stays.
         const double narrower = body ? 1 / (n * n) : 1;
         for (std::uint32_t band = 0; band < scene_.bands; ++band)
-            weight[band] *= part / chance *
-                            (back ? reflected : (1 - reflected) * tint[band] * narrower);
+            weight[band] *=
+                part / chance * (back ? reflected : (1 - reflected) * tint[band] * narrower);
         if (back) {
             direction += 2 * std::cos(a) * normal;
         } else if (body) {
@@ -292,20 +292,20 @@ std::vector<PathEstimate> traced_irradiance(const Scene& scene, const Patches& p
                                             const PathSettings& settings) {
     const Tracer tracer(scene, patches, settings.threads);
     std::vector<PathEstimate> result(patches.count());
-    parallel_for(settings.threads, patches.count(), 1, [&](std::size_t patch, std::size_t,
-                                                          unsigned) {
-        const double diffuse = 1 - patches.specular_share(patch);
-        if (diffuse <= 0)
-            return;
-        DenormalsOff guard;
-        Random random(settings.seed, stream::path_tracer + patch);
-        result[patch] = estimate(settings.paths, patches.bands, pi * diffuse, [&] {
-            dvec3 from, direction;
-            std::uint32_t skip = none;
-            tracer.leave(static_cast<std::uint32_t>(patch), from, direction, skip, random);
-            return tracer.radiance(from, direction, skip, random);
+    parallel_for(
+        settings.threads, patches.count(), 1, [&](std::size_t patch, std::size_t, unsigned) {
+            const double diffuse = 1 - patches.specular_share(patch);
+            if (diffuse <= 0)
+                return;
+            DenormalsOff guard;
+            Random random(settings.seed, stream::path_tracer + patch);
+            result[patch] = estimate(settings.paths, patches.bands, pi * diffuse, [&] {
+                dvec3 from, direction;
+                std::uint32_t skip = none;
+                tracer.leave(static_cast<std::uint32_t>(patch), from, direction, skip, random);
+                return tracer.radiance(from, direction, skip, random);
+            });
         });
-    });
     return result;
 }
 

@@ -142,8 +142,8 @@ void GltfMaterials::read_glass(const JsonView& json, Material& material) {
     if (volume && volume->has("thicknessFactor"))
         s.thin = !(volume->at("thicknessFactor").number(0, 1e15) > 0);
     if (!s.thin && volume->has("attenuationDistance")) {
-        const double distance = volume->at("attenuationDistance").number(1e-15, 1e15) *
-                                builder_.settings().scale;
+        const double distance =
+            volume->at("attenuationDistance").number(1e-15, 1e15) * builder_.settings().scale;
         auto colour = volume->find("attenuationColor");
         if (colour && colour->size() != 3)
             colour->fail("must have three numbers");
@@ -246,8 +246,7 @@ std::uint32_t GltfMaterials::read_texture(const JsonView& info, UvSource& source
 
 void GltfMaterials::finish() {
     Scene& scene = builder_.scene();
-    metals_.warn(scene, "materials",
-                 "are metallic by glTF's default alone and taken as diffuse");
+    metals_.warn(scene, "materials", "are metallic by glTF's default alone and taken as diffuse");
     plain_metals_.warn(scene, "materials",
                        "are metallic or rough by a picture; their factors alone are used");
     both_.warn(scene, "materials", "are metallic and transmit; they are taken as metals");

@@ -67,9 +67,8 @@ void ParalluxReader::read_materials() {
     auto list = root_.find("materials");
     for (std::size_t i = 0; list && i < list->size(); ++i) {
         JsonView json = list->at(i);
-        json.only(
-            {"name", "comment", "reflectance", "transmittance", "back", "emission", "two_sided",
-             "mirror", "glass"});
+        json.only({"name", "comment", "reflectance", "transmittance", "back", "emission",
+                   "two_sided", "mirror", "glass"});
         std::string name = json.text_or("name", "material " + std::to_string(i));
         Material m;
         m.name = printable(name);
@@ -140,8 +139,9 @@ void ParalluxReader::read_specular(const JsonView& json, Material& m) const {
     if (s.share == 1) {
         for (const char* diffuse : {"reflectance", "transmittance", "back"})
             if (json.has(diffuse))
-                json.at(diffuse).fail("the mirror or glass leaves nothing for a diffuse part; "
-                                      "give it a share below 1");
+                json.at(diffuse).fail(
+                    "the mirror or glass leaves nothing for a diffuse part; "
+                    "give it a share below 1");
         m.reflectance = {};
     }
 }

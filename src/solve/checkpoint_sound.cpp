@@ -95,7 +95,8 @@ bool sound(const TransferState& state, const Group& group, const Patches& patche
         return state.bands == 0;
     const std::size_t values = patches.reflectance.size();
     const std::size_t carried = patches.count() * lanes(patches.bands);
-    for (const auto* totals : {&state.sky, &state.emitted, &state.lost, &state.absorbed, &state.escaped})
+    for (const auto* totals :
+         {&state.sky, &state.emitted, &state.lost, &state.absorbed, &state.escaped})
         if (totals->size() != patches.bands)
             return false;
     const bool passing = group.stage == Stage::pass;

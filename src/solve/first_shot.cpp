@@ -20,8 +20,7 @@ void stand_for_all(const Run& run, DirectLight& direct) {
     run.banks.scale(1 / direct.done);
     for (std::uint32_t band = 0; band < run.patches.bands; ++band) {
         for (auto* totals : {&direct.escaped, &direct.absorbed})
-            (*totals)[band] =
-                std::llrint(static_cast<double>((*totals)[band]) / direct.done);
+            (*totals)[band] = std::llrint(static_cast<double>((*totals)[band]) / direct.done);
         direct.emitted[band] = direct.escaped[band] + direct.absorbed[band];
         for (std::size_t patch = 0; patch < run.patches.count(); ++patch)
             direct.emitted[band] += run.banks.received(patch, band);

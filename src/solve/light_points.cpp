@@ -154,13 +154,10 @@ void walk_from_cell(const Run& run, const FarShadow& shadow, std::size_t s, cons
             a = 1 - a;
             b = 1 - b;
         }
-        const Place place{*run.rays,
-                          surface_point(scene, surface, cell.u0 + a * cell.du,
-                                        cell.v0 + b * cell.dv),
-                          normal,
-                          static_cast<std::uint32_t>(s),
-                          0,
-                          shadow};
+        const Place place{
+            *run.rays, surface_point(scene, surface, cell.u0 + a * cell.du, cell.v0 + b * cell.dv),
+            normal,    static_cast<std::uint32_t>(s),
+            0,         shadow};
         for (const Light& light : scene.lights) {
             const Beam beam = beam_to(run, place, light, random);
             if (beam.flux <= 0)

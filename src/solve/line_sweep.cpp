@@ -138,8 +138,8 @@ void LineSweep::follow_tile(const Projection& projection, std::size_t tile, unsi
             .follow(projection, tile, buffers.lists, projector_.centre(),
                     keeping ? &buffers.pairs : nullptr);
         if (keeping)
-            ways_->keep(buffers.pairs,
-                        std::bit_cast<std::uint64_t>(projection.bundle.direction.x), worker);
+            ways_->keep(buffers.pairs, std::bit_cast<std::uint64_t>(projection.bundle.direction.x),
+                        worker);
         return;
     }
     projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);

@@ -56,9 +56,9 @@ void LineWalks::follow(const Projection& projection, std::size_t tile,
                        const IntersectionLists& lists, const glm::dvec3& centre, TilePairs* kept) {
     const Bundle& bundle = projection.bundle;
     const TileBounds bounds = tile_bounds(projection, tile);
-    const std::uint64_t key = mix64(run_.settings.seed ^ std::bit_cast<std::uint64_t>(
-                                                             bundle.direction.x)) ^
-                              std::bit_cast<std::uint64_t>(bundle.offset_x);
+    const std::uint64_t key =
+        mix64(run_.settings.seed ^ std::bit_cast<std::uint64_t>(bundle.direction.x)) ^
+        std::bit_cast<std::uint64_t>(bundle.offset_x);
     along_ = bundle.direction;
     radius_ = projection.radius;
     kept_ = kept;
@@ -80,8 +80,9 @@ void LineWalks::follow(const Projection& projection, std::size_t tile,
         const auto columns = static_cast<std::size_t>(bounds.columns());
         const std::int32_t column = bounds.left + static_cast<std::int32_t>(line % columns);
         const std::int32_t row = bounds.top + static_cast<std::int32_t>(line / columns);
-        random_ = Random(key, stream::walks + (std::uint64_t(static_cast<std::uint32_t>(row)) << 20 ^
-                                               static_cast<std::uint32_t>(column)));
+        random_ =
+            Random(key, stream::walks + (std::uint64_t(static_cast<std::uint32_t>(row)) << 20 ^
+                                         static_cast<std::uint32_t>(column)));
         follow_line(&lists.hits[begin], count,
                     centre + bundle.spacing * ((column - bundle.offset_x) * bundle.x +
                                                (row - bundle.offset_y) * bundle.y));

@@ -54,8 +54,9 @@ void check_specular(const Scene& scene, const SolveSettings& settings) {
         throw Error(Fault::usage,
                     "form factors know nothing of mirrors and glass: choose --first-shot rays");
     if (is_periodic(scene))
-        throw Error(Fault::usage, "a periodic scene has no mirrors or glass: walks off them know "
-                                  "of one tile");
+        throw Error(Fault::usage,
+                    "a periodic scene has no mirrors or glass: walks off them know "
+                    "of one tile");
 }
 
 }  // namespace

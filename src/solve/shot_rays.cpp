@@ -108,8 +108,8 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
         if (run.walks)
             return walk(ray, Walk(*run.walks, from, direction, emitter.surface),
                         carried_by(ray, piece), worker, sink);
-        SurfaceHit hit = run.rays->closest(
-            from, direction, std::numeric_limits<double>::infinity(), emitter.surface);
+        SurfaceHit hit = run.rays->closest(from, direction, std::numeric_limits<double>::infinity(),
+                                           emitter.surface);
         std::uint32_t patch = patch_of(run.scene, run.patches, hit);
         // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
         WorkerTotals& totals = run.banks.totals(worker);
@@ -137,8 +137,8 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
                          Last last;
                          const QuantaSink sink = bank_sink(run, worker);
                          for (std::size_t k = begin; k < end; ++k)
-                             shoot(done + k, (static_cast<double>(k) + offset) * step, worker,
-                                   last, sink);
+                             shoot(done + k, (static_cast<double>(k) + offset) * step, worker, last,
+                                   sink);
                      });
         done += count;
         if (!go_on(static_cast<double>(done) / static_cast<double>(rays)))

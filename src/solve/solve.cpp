@@ -123,8 +123,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     listener.keep_by([&](bool last) { checkpoint.keep(last); });
     Team team(plan.threads);
     SolveSettings own = settings;
-    Run run{scene, patches, own, plan, rays.get(), banks, listener, nullptr, &regions,
-            walks.get()};
+    Run run{scene, patches, own, plan, rays.get(), banks, listener, nullptr, &regions, walks.get()};
     if (group.stage == Stage::trial) {
         if (plan.try_rays && rays)
             plan = make_plan(scene, patches, settings, try_rays(run, group.done));

@@ -77,7 +77,6 @@ Shares shares(const Material& material, double cosine, bool inside) {
 
 }  // namespace
 
-// Planted, seen to fail: see tests/planted/shiny_*.patch.
 TEST_CASE("a sheet of glass reflects to and fro between its faces") {
     // R + T² R / (1 - R²), summed here bounce by bounce.
     const double r = fresnel(1, 1.5, 0.6);

@@ -101,6 +101,14 @@ Scene balls() {
     return scene;
 }
 
+// A stone in a block of glass, both of which absorb.
+Scene stone_in_glass() {
+    Scene scene = painted_room();
+    add_block(scene, {0.3, 0.3, 0.1}, {0.7, 0.7, 0.5}, glass(1.5, 2));
+    add_turned_cube(scene, {0.5, 0.5, 0.3}, 0.2, 1, emitting(grey(0.5), 1));
+    return scene;
+}
+
 void judge(const Scene& scene, const SolveSettings& settings, std::uint64_t paths) {
     const Patches patches = make_patches(scene);
     constexpr int seeds = 64;
@@ -115,9 +123,9 @@ void judge(const Scene& scene, const SolveSettings& settings, std::uint64_t path
             continue;
         auto of = [&](std::size_t at) -> const PathEstimate& { return traced[at / patches.bands]; };
         const auto band = static_cast<std::uint32_t>(k % patches.bands);
-        const double expected =
-            patches.emission[k] +
-            scattered(patches, k, [&](std::size_t at) { return of(at).mean[band]; });
+        const double expected = patches.emission[k] + scattered(patches, k, [&](std::size_t at) {
+                                    return of(at).mean[band];
+                                });
         const double error =
             scattered(patches, k, [&](std::size_t at) { return of(at).error[band]; });
         const double z = (samples[k].mean() - expected) /
@@ -161,6 +169,9 @@ TEST_CASE("judged by paths: a wide sun past a mirror and through glass") {
 }
 TEST_CASE("judged by paths: balls of glass and metal under a leaf") {
     judge(balls(), bundles(256), 300'000);
+}
+TEST_CASE("judged by paths: a stone in glass") {
+    judge(stone_in_glass(), bundles(256), 300'000);
 }
 // The same without first shots: emission goes along the lines.
 TEST_CASE("judged by paths: without first shots") {

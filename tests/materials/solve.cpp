@@ -23,9 +23,9 @@ void add_shiny(Scene& scene, double emitted_by_mirrors) {
               emitting(mirror(0.75), 0.25 * emitted_by_mirrors));
     add_block(scene, {0.6, 0.6, 0.1}, {0.8, 0.8, 0.3},
               emitting(mirror(0.75, 0.7), 0.25 * emitted_by_mirrors));
-    add_block(scene, {0.6, 0.6, 0.5}, {0.8, 0.8, 0.7},
-              emitting(mirror(0.75, 0.4, 0.5, 0.5),
-                       (1 - 0.5 * 0.75 - 0.5 * 0.5) * emitted_by_mirrors));
+    add_block(
+        scene, {0.6, 0.6, 0.5}, {0.8, 0.8, 0.7},
+        emitting(mirror(0.75, 0.4, 0.5, 0.5), (1 - 0.5 * 0.75 - 0.5 * 0.5) * emitted_by_mirrors));
     add_ball(scene, {0.3, 0.3, 0.7}, 0.15, 8, glass(1.33));
 }
 
@@ -113,8 +113,8 @@ TEST_CASE("a mirror box behaves as its images") {
     Scene images;
     images.bands = 1;
     images.objects = {"room"};
-    for (const glm::dvec2& sign : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1),
-                                   glm::dvec2(-1, -1)}) {
+    for (const glm::dvec2& sign :
+         {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)}) {
         const auto first = static_cast<std::uint32_t>(images.positions.size());
         for (glm::dvec3 p : mirrors.positions)
             images.positions.push_back({sign.x * (p.x - 1), sign.y * (p.y - 1), p.z});
