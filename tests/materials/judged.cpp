@@ -156,34 +156,34 @@ SolveSettings bundles(std::uint64_t count) {
 }  // namespace
 
 TEST_CASE("judged by paths: a coloured mirror and coloured glass") {
-    judge(mirror_and_glass(), bundles(256), 300'000);
+    judge(mirror_and_glass(), bundles(256), 100'000);
 }
 TEST_CASE("judged by paths: rough mirrors and a polished floor") {
-    judge(rough_and_polished(), bundles(256), 300'000);
+    judge(rough_and_polished(), bundles(256), 100'000);
 }
 TEST_CASE("judged by paths: sky through a window") {
-    judge(window(), bundles(256), 200'000);
+    judge(window(), bundles(256), 60'000);
 }
 TEST_CASE("judged by paths: a wide sun past a mirror and through glass") {
-    judge(sunlit(), bundles(128), 300'000);
+    judge(sunlit(), bundles(128), 100'000);
 }
 TEST_CASE("judged by paths: balls of glass and metal under a leaf") {
-    judge(balls(), bundles(256), 300'000);
+    judge(balls(), bundles(256), 100'000);
 }
 TEST_CASE("judged by paths: a stone in glass") {
-    judge(stone_in_glass(), bundles(256), 300'000);
+    judge(stone_in_glass(), bundles(256), 100'000);
 }
 // The same without first shots: emission goes along the lines.
 TEST_CASE("judged by paths: without first shots") {
     SolveSettings settings = bundles(256);
     settings.first_shot = FirstShot::off;
     settings.first_shot_rays = 0;
-    judge(rough_and_polished(), settings, 300'000);
+    judge(rough_and_polished(), settings, 100'000);
 }
 
 // The judge itself, where nothing shines.
 TEST_CASE("judged by paths: a diffuse room") {
     Scene scene = painted_room();
     add_turned_cube(scene, {0.3, 0.35, 0.3}, 0.3, 1, grey(0.5));
-    judge(scene, bundles(256), 300'000);
+    judge(scene, bundles(256), 100'000);
 }
