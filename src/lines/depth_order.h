@@ -21,6 +21,9 @@ inline bool touch(const Surface& a, const Surface& b) {
     return false;
 }
 
+/// Planes closer than this, in radii, are meant to be one: what is left of coordinates in 24 bits.
+inline constexpr double coordinate_rounding = 1e-6;
+
 /// Surfaces without a common corner whose depths differ by less than this, in radii, lie in one
 /// place: no more than their corners' snapping, at slopes to 16.
 inline float same_place(const Projection& projection) {
@@ -34,11 +37,15 @@ inline float near_tie(double spacing, double radius) {
 }
 
 /// How two surfaces lie to each other. The same for all bundles, so that what was found is kept.
+///  apart     no corner in common, planes that cross
+///  parallel  planes along each other; with a corner in common one plane
+///  touching  a corner in common, planes that cross
 class SurfaceRelations {
 public:
     enum Relation : std::uint8_t { apart, parallel, touching };
 
-    explicit SurfaceRelations(const Scene& scene) : scene_(scene) {}
+    /// `radius` of the scene's sphere, metres.
+    SurfaceRelations(const Scene& scene, double radius) : scene_(scene), radius_(radius) {}
     Relation of(std::uint32_t a, std::uint32_t b);
 
 private:
@@ -46,14 +53,18 @@ private:
         std::uint32_t a = none, b = none;
         Relation relation = apart;
     };
+    Relation find(const Surface& a, const Surface& b) const;
+
     const Scene& scene_;
+    double radius_;
     std::vector<Known> known_ = std::vector<Known>(1 << 12);
 };
 
 /// The order of two hits of one line that rounding may have turned. Faces that share a corner by
 /// the exact depth of their snapped corners, in which two faces meet along their common edge;
 /// others by their own, unsnapped planes; and where those are one, so that the one met from behind
-/// comes first (a solid that stands on a floor: the gap is between them).
+/// comes first (a solid that stands on a floor: the gap is between them). SharedPlaces has the same
+/// order for rays.
 class TieOrder {
 public:
     /// `slack[surface]` is how far snapping may have moved the depths of each.

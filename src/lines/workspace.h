@@ -17,7 +17,7 @@ struct Span {
 };
 
 struct Projector::Workspace {
-    explicit Workspace(const Scene& scene) : relations(scene) {}
+    Workspace(const Scene& scene, double radius) : relations(scene, radius) {}
 
     SurfaceRelations relations;
     std::vector<SurfaceView> views;
