@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "lines/edge_walk.h"
+#include "lines/sheets.h"
 
 namespace parallux {
 
@@ -126,16 +127,22 @@ bool TieOrder::before(const Hit& a, const Hit& b) const {
     }
     if (std::fabs(across) > coordinate_rounding)
         return gap < 0;
-    // In one place: the air lies between a floor and what stands on it, so that the one met from
-    // behind comes first; but a line along the edge of a solid enters it before it leaves.
-    if (from_behind(a) != from_behind(b))
-        return from_behind(a) !=
-               (relation == SurfaceRelations::touching &&
-                convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
+    const bool a_behind = from_behind(a), b_behind = from_behind(b);
+    if (relation == SurfaceRelations::touching) {
+        // A line along the edge of a solid enters it before it leaves.
+        if (a_behind != b_behind)
+            return a_behind !=
+                   convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]);
+    } else {
+        const int a_rank = place_rank(a_behind, relations_.is_sheet(a.surface));
+        const int b_rank = place_rank(b_behind, relations_.is_sheet(b.surface));
+        if (a_rank != b_rank)
+            return a_rank < b_rank;
+    }
     if (std::fabs(gap) > 1e-9)
         return gap < 0;
     // Both look the same way; the first of the scene lies in front, from wherever it is met.
-    return (a.surface < b.surface) != from_behind(a);
+    return (a.surface < b.surface) != a_behind;
 }
 
 bool TieOrder::from_behind(const Hit& hit) const {

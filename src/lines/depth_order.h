@@ -44,9 +44,11 @@ class SurfaceRelations {
 public:
     enum Relation : std::uint8_t { apart, parallel, touching };
 
-    /// `radius` of the scene's sphere, metres.
-    SurfaceRelations(const Scene& scene, double radius) : scene_(scene), radius_(radius) {}
+    /// `radius` of the scene's sphere, metres; sheet_faces().
+    SurfaceRelations(const Scene& scene, double radius, const std::vector<bool>& sheets)
+        : scene_(scene), radius_(radius), sheets_(sheets) {}
     Relation of(std::uint32_t a, std::uint32_t b);
+    bool is_sheet(std::uint32_t surface) const { return sheets_[surface]; }
 
 private:
     struct Known {
@@ -57,14 +59,15 @@ private:
 
     const Scene& scene_;
     double radius_;
+    const std::vector<bool>& sheets_;
     std::vector<Known> known_ = std::vector<Known>(1 << 12);
 };
 
 /// The order of two hits of one line that rounding may have turned. Faces that share a corner by
 /// the exact depth of their snapped corners, in which two faces meet along their common edge;
 /// others by their own, unsnapped planes; and where those are one, so that the one met from behind
-/// comes first (a solid that stands on a floor: the gap is between them). SharedPlaces has the same
-/// order for rays.
+/// comes first (a solid that stands on a floor: the gap is between them) and the faces of sheets as
+/// those of a solid (place_rank()). SharedPlaces has the same order for rays.
 class TieOrder {
 public:
     /// `slack[surface]` is how far snapping may have moved the depths of each.

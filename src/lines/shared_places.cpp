@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "lines/depth_order.h"
+#include "lines/sheets.h"
 
 namespace parallux {
 
@@ -181,8 +182,12 @@ SharedPlaces::SharedPlaces(const Scene& scene) {
     for (const Pair& pair : pairs) {
         ++begin_[pair.first + 1];
         others_.push_back(pair.second);
-        if (plane_of_[pair.first] != none)
+        const bool sheet =
+            are_sheet(scene, scene.surfaces[pair.first], scene.surfaces[pair.second]);
+        if (plane_of_[pair.first] != none) {
+            planes_.back().sheet |= sheet;
             continue;
+        }
         plane_of_[pair.first] = static_cast<std::uint32_t>(planes_.size());
         const Surface& surface = scene.surfaces[pair.first];
         Plane plane;
@@ -194,6 +199,7 @@ SharedPlaces::SharedPlaces(const Scene& scene) {
         plane.uv = glm::dot(plane.u, plane.v);
         plane.vv = glm::dot(plane.v, plane.v);
         plane.surface = surface;
+        plane.sheet = sheet;
         planes_.push_back(plane);
     }
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
@@ -206,8 +212,10 @@ bool SharedPlaces::from_behind(std::uint32_t surface, const glm::dvec3& directio
 
 bool SharedPlaces::before(std::uint32_t a, std::uint32_t b, const glm::dvec3& direction) const {
     const bool behind = from_behind(a, direction);
-    if (behind != from_behind(b, direction))
-        return behind;
+    const int rank_a = place_rank(behind, plane(a).sheet);
+    const int rank_b = place_rank(from_behind(b, direction), plane(b).sheet);
+    if (rank_a != rank_b)
+        return rank_a < rank_b;
     // Both normals point the same way: the gap along it, from a to b.
     const double gap = glm::dot(plane(b).origin - plane(a).origin, plane(a).normal);
     if (std::abs(gap) > 1e-9 * radius_)

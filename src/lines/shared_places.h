@@ -13,9 +13,9 @@ namespace parallux {
 
 /// Surfaces that lie in one plane and overlap there: panels against a wall, a box on a floor, a
 /// sticker. Which of them a ray meets first must not be chance, and must be what a bundle's line
-/// meets (TieOrder): the one met from behind, since the air lies between a floor and what stands on
-/// it; else the nearer plane; else, with the first of the scene in front of others that look the
-/// same way. A ray of the other direction meets them the other way round. Immutable.
+/// meets (TieOrder): by place_rank(), the one met from behind before others but for the faces of
+/// sheets; else the nearer plane; else, with the first of the scene in front of others that look
+/// the same way. A ray of the other direction meets them the other way round. Immutable.
 class SharedPlaces {
 public:
     /// O(n log n) for n surfaces of which few lie in one plane and over each other along its
@@ -49,6 +49,7 @@ private:
         glm::dvec3 origin, u, v, normal;
         double uu, uv, vv;
         Surface surface;
+        bool sheet = false;  // one of its two faces
     };
     const Plane& plane(std::uint32_t surface) const { return planes_[plane_of_[surface]]; }
 
