@@ -149,13 +149,24 @@ struct RayScene::Data {
         return q;
     }
 
-    // Of the surfaces that share the place of `from`, the first that a ray along the direction
-    // meets at the point after `from`, which it leaves; or, where it leaves none, the first of them
-    // and of what it has met there.
+    // What shares the place of a surface that a ray leaves or ends on; nothing where it begins or
+    // ends beside the surface.
+    std::span<const std::uint32_t> beside(std::uint32_t surface, const glm::dvec3& point) const {
+        const std::span<const std::uint32_t> others = shared.with(surface);
+        return others.empty() || shared.in_plane(surface, point) ? others
+                                                                 : std::span<const std::uint32_t>();
+    }
+
+    // Of some surfaces of one place, the first that a ray along the direction meets at the point
+    // after `from`, which it leaves; or, where it leaves none, the first of them and of what it has
+    // met there, but for `skip`.
     SurfaceHit first_of(std::span<const std::uint32_t> others, const glm::dvec3& point,
-                        const glm::dvec3& direction, std::uint32_t from, SurfaceHit met) const {
+                        const glm::dvec3& direction, std::uint32_t from, SurfaceHit met,
+                        std::uint32_t skip = none) const {
         for (std::uint32_t other : others) {
             double u, v;
+            if (other == skip)
+                continue;
             if (from != none && shared.before(other, from, direction))
                 continue;
             if (met.surface != none && !shared.before(other, met.surface, direction))
@@ -214,7 +225,7 @@ RayScene::~RayScene() = default;
 SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& direction, double far,
                              std::uint32_t skip) const {
     const SharedPlaces& shared = data_->shared;
-    const std::span<const std::uint32_t> beside = shared.with(skip);
+    const std::span<const std::uint32_t> beside = data_->beside(skip, origin);
     SurfaceHit hit = data_->first_of(beside, origin, direction, skip, {});
     if (hit.surface != none)
         return hit;
@@ -233,14 +244,14 @@ SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& directi
     const std::span<const std::uint32_t> others = shared.with(hit.surface);
     if (others.empty())
         return hit;
-    return data_->first_of(others, origin + double(hit.t) * direction, direction, none, hit);
+    return data_->first_of(others, origin + double(hit.t) * direction, direction, none, hit, skip);
 }
 
 bool RayScene::blocked(const glm::dvec3& a, const glm::dvec3& b, std::uint32_t skip_a,
                        std::uint32_t skip_b) const {
     const glm::dvec3 way = b - a;
-    const SharedPlaces& shared = data_->shared;
-    const std::span<const std::uint32_t> with_a = shared.with(skip_a), with_b = shared.with(skip_b);
+    const std::span<const std::uint32_t> with_a = data_->beside(skip_a, a);
+    const std::span<const std::uint32_t> with_b = data_->beside(skip_b, b);
     if (data_->first_of(with_a, a, way, skip_a, {}).surface != none)
         return true;
     // Seen from its end, the ray goes the other way.

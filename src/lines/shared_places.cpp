@@ -223,6 +223,11 @@ bool SharedPlaces::before(std::uint32_t a, std::uint32_t b, const glm::dvec3& di
     return (a < b) != behind;
 }
 
+bool SharedPlaces::in_plane(std::uint32_t surface, const glm::dvec3& point) const {
+    const Plane& p = plane(surface);
+    return std::abs(glm::dot(point - p.origin, p.normal)) <= same_plane * radius_;
+}
+
 bool SharedPlaces::covers_part(std::uint32_t surface, const glm::dvec3& out,
                                std::span<const glm::dvec3> part) const {
     for (std::uint32_t other : with(surface)) {

@@ -36,6 +36,9 @@ public:
     /// v).
     bool holds(std::uint32_t surface, const glm::dvec3& point, double& u, double& v) const;
 
+    /// Whether a point lies in the plane of a surface that shares its place.
+    bool in_plane(std::uint32_t surface, const glm::dvec3& point) const;
+
     /// Whether something lies in front of a part, a convex polygon, of a surface that a ray along
     /// `out` leaves.
     bool covers_part(std::uint32_t surface, const glm::dvec3& out,
