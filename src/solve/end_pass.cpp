@@ -43,7 +43,9 @@ Balance balance_of(const Run& run, const DirectLight& direct, const TransferStat
         balance.absorbed.push_back(all(direct.absorbed[band], state.absorbed[band]));
         balance.escaped.push_back(all(direct.escaped[band], state.escaped[band]));
         // Power that the pass was to send but did not waits like all unshot energy.
-        balance.unshot.push_back(all(direct.unshot[band], unshot[band] - state.emitted[band]));
+        const auto waiting = static_cast<std::uint64_t>(unshot[band]) -
+                             static_cast<std::uint64_t>(state.emitted[band]);
+        balance.unshot.push_back(all(direct.unshot[band], static_cast<std::int64_t>(waiting)));
         balance.residual.push_back(
             static_cast<std::int64_t>(static_cast<std::uint64_t>(balance.emitted[band]) -
                                       static_cast<std::uint64_t>(balance.absorbed[band]) -

@@ -118,8 +118,8 @@ void ExactShot::look(std::size_t source, std::size_t begin, std::size_t end, Chu
             else
                 chunk.pairs.push_back(
                     {static_cast<std::uint32_t>(k),
-                     views.grid_for(cell, from.polygon, {&chunk.blockers[first], count}), first,
-                     count, factor});
+                     views.grid_for(cell, from.polygon, {chunk.blockers.data() + first, count}),
+                     first, count, factor});
             continue;
         }
         chunk.pairs.push_back(
@@ -238,9 +238,10 @@ std::vector<double> ExactShot::factors_of(std::size_t source, std::uint64_t seed
             if (pair.by_rays())
                 factors[k] = pair.factor * visible_share(scene_, rays_, from, cell, count, random);
             else
-                factors[k] = area(polygon_of(scene_, cell)) / own_area *
-                             views.mean(cell, from.polygon, {&blockers_[pair.first], pair.blockers},
-                                        count, random);
+                factors[k] =
+                    area(polygon_of(scene_, cell)) / own_area *
+                    views.mean(cell, from.polygon, {blockers_.data() + pair.first, pair.blockers},
+                               count, random);
         }
     });
     return factors;
