@@ -180,7 +180,8 @@ private:
     const Patches& patches_;
     glm::dvec3 centre_{0};
     double radius_ = 0;
-    std::shared_ptr<const PlaneSides> sides_;  // null: too many surfaces
+    std::shared_ptr<const PlaneSides> sides_;          // null: too many surfaces
+    std::shared_ptr<const std::vector<bool>> sheets_;  // surfaces that are a face of one
 };
 
 /// Throws Fault::usage when a spacing gives more than 2¹⁸ lines across a scene of this radius.

@@ -11,6 +11,7 @@
 #include "lines/painter.h"
 #include "lines/plane_sides.h"
 #include "lines/rectangle.h"
+#include "lines/sheets.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "parallux/lines.h"
@@ -29,7 +30,7 @@ void check_spacing(double spacing, double radius) {
 }
 
 Projector::Projector(const Scene& scene, const Patches& patches, Surfaces surfaces)
-    : scene_(scene), patches_(patches) {
+    : scene_(scene), patches_(patches), sheets_(sheet_faces(scene)) {
     LineSphere sphere = line_sphere(scene);
     centre_ = sphere.centre;
     radius_ = sphere.radius;

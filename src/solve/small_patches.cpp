@@ -43,18 +43,19 @@ std::string few_lines_warning(const Run& run, std::uint32_t first, std::size_t c
     return text;
 }
 
-// Whether another surface lies in the very place of a patch, as a sticker does. Of two in one place
-// a line meets either first, by its direction; rays from one of them would always see past the
-// other.
+// Whether another surface lies in the very place of a patch, or closer than lines can part them.
 bool is_covered(const Run& run, const PatchCells& cells, std::size_t k) {
     constexpr int places = 8;
+    std::vector<SurfaceHit> hits;
     const double near = 1e-5 * run.plan.sphere.radius;
     for (int place = 0; place < places; ++place) {
         const double a = (place + 0.5) / places, b = std::fmod(place * 0.375 + 0.0625, 1.0);
         const Emitter& cell = cells.choose(k, a);
         const glm::dvec3 point = point_on(run.scene, cell, a, b);
         const glm::dvec3 up = near * emitter_normal(run.scene, cell);
-        if (run.rays->blocked(point - up, point + up, cell.surface))
+        run.rays->all(point - up, 2.0 * up, 1, hits);
+        if (std::any_of(hits.begin(), hits.end(),
+                        [&](const SurfaceHit& hit) { return hit.surface != cell.surface; }))
             return true;
     }
     return false;
