@@ -18,7 +18,7 @@ using namespace parallux::efficiency;
 namespace {
 
 struct Options {
-    std::vector<std::string> scenes;
+    std::vector<std::string> scenes, methods;
     unsigned threads = 1;
     RoundSettings rounds;
     ReferenceSettings references;
@@ -70,7 +70,7 @@ int run(const Options& options) {
         print_reference(of, reference);
         if (options.references_only)
             continue;
-        const std::vector<Contender> all = contenders(of, options.threads);
+        const std::vector<Contender> all = contenders(of, options.threads, options.methods);
         std::vector<Row> own = run_rounds(of, reference, all, options.rounds);
         set_gains(own);
         print_rows(own, options.rounds.seeds, options.rounds.clock);
@@ -110,6 +110,9 @@ int main(int argc, char** argv) {
     app.add_option("--scene", options.scenes,
                    "paper-12150, paper-12150-rho80, cornell-1000, cornell-10000, mgf-classroom, "
                    "cornell-nvpro, bitterli-modern-hall or a file [all]");
+    app.add_option("--methods", options.methods,
+                   "Those to run beside the baseline, by the names that the table has [all]")
+        ->delimiter(',');
     app.add_option("--seeds", rounds.seeds, "Runs of every method and length")
         ->capture_default_str()
         ->check(CLI::Range(2, 1000));

@@ -1,8 +1,10 @@
 #include "efficiency/methods.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "efficiency/reference.h"
+#include "parallux/error.h"
 
 namespace parallux::efficiency {
 
@@ -13,7 +15,9 @@ SolveSettings Contender::run(std::uint64_t length, std::uint64_t seed) const {
     return own;
 }
 
-std::vector<Contender> contenders(const Case& of, unsigned threads) {
+namespace {
+
+std::vector<Contender> all_contenders(const Case& of, unsigned threads) {
     std::vector<Contender> all;
     auto add = [&](const char* name, Method method, FirstShot first_shot) -> SolveSettings& {
         all.push_back({name, {}});
@@ -41,6 +45,23 @@ std::vector<Contender> contenders(const Case& of, unsigned threads) {
     add("particles", Method::particles, FirstShot::automatic);
     if (of.patches.count() <= 2000)
         add("matrix", Method::matrix, FirstShot::automatic);
+    return all;
+}
+
+}  // namespace
+
+std::vector<Contender> contenders(const Case& of, unsigned threads,
+                                  const std::vector<std::string>& names) {
+    std::vector<Contender> all = all_contenders(of, threads);
+    if (names.empty())
+        return all;
+    for (const std::string& name : names)
+        if (std::none_of(all.begin(), all.end(),
+                         [&](const Contender& c) { return c.name == name; }))
+            throw Error(Fault::usage, "no method '" + name + "' for " + of.name);
+    std::erase_if(all, [&](const Contender& c) {
+        return c.name != baseline && std::find(names.begin(), names.end(), c.name) == names.end();
+    });
     return all;
 }
 

@@ -26,7 +26,9 @@ inline const char* const baseline = "paper";
 inline const char* const default_method = "bundles";
 
 /// All that a case lets run, the baseline first. It has one thread, whatever the others have; says
-/// what is left out and why.
-std::vector<Contender> contenders(const Case& of, unsigned threads);
+/// what is left out and why. With names, those alone beside the baseline; a name that none has is
+/// Fault::usage.
+std::vector<Contender> contenders(const Case& of, unsigned threads,
+                                  const std::vector<std::string>& names = {});
 
 }  // namespace parallux::efficiency

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "parallux/patches.h"
@@ -108,6 +109,14 @@ struct Projection {
         float depth;        ///< in radii of the scene from its centre
     };
     std::vector<Corner> corners;            ///< one a position of the scene
+    /// A whole sphere: x, y and radius in spacings, not snapped; depth in radii of the scene, as
+    /// much more a spacing; the bundle's axes as the sphere's own frame has them.
+    struct Ball {
+        double x, y, radius, depth, per_spacing;
+        glm::mat3 axes;
+        bool turned;  ///< its grid's v runs against the angle
+    };
+    std::vector<Ball> balls;                ///< one a curve of the scene
     std::vector<std::uint32_t> tile_start;  ///< tiles + 1 offsets into tile_surfaces
     std::vector<std::uint32_t> tile_surfaces;
     std::vector<std::uint32_t> order;  ///< all surfaces by depth, where planes can tell; else empty
@@ -142,11 +151,12 @@ class Projector {
 public:
     /// many: does not look for an order of the surfaces' planes, which takes longer than a bundle.
     enum class Surfaces { any, many };
-    /// Keeps references to both: they must outlive the projector. Curved surfaces are cut into
-    /// flat triangles once, for bundles of about the spacing that is given here (0: a thousandth of
-    /// the scene's radius): their hits lie within an eighth of it of where they should, and in the
-    /// right cells but for that; outlines and areas are less by 5·10⁻⁴ at most. That they are met
-    /// an even number of times holds as exactly as for planar ones.
+    /// Keeps references to both: they must outlive the projector. Whole spheres are met where they
+    /// are, to a float's digits, and in the right cells. Other curved surfaces are cut into flat
+    /// triangles once, for bundles of about the spacing that is given here (0: a thousandth of the
+    /// scene's radius): their hits lie within an eighth of it of where they should, and in the right
+    /// cells but for that; outlines and areas are less by 5·10⁻⁴ at most. That they are met an even
+    /// number of times holds as exactly as for planar ones.
     Projector(const Scene& scene, const Patches& patches, Surfaces surfaces = Surfaces::any,
               double spacing = 0);
 
@@ -187,7 +197,8 @@ private:
     const Patches& patches_;
     glm::dvec3 centre_{0};
     double radius_ = 0;
-    std::shared_ptr<const PlaneSides> sides_;  // null: too many surfaces
+    std::shared_ptr<const PlaneSides> sides_;          // null: too many surfaces
+    std::shared_ptr<const std::vector<bool>> sheets_;  // surfaces that are a face of one
 };
 
 /// Throws Fault::usage when a spacing gives more than 2¹⁸ lines across a scene of this radius.

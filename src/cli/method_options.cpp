@@ -93,7 +93,7 @@ void add_lines(CLI::App& app, SolveSettings& s) {
     });
     option(
         "--batch", "B",
-        "Bundles, or as many lines, from one snapshot; part of the result [bundles up to 16, lines "
+        "Bundles, or as many lines, from one snapshot; part of the result [bundles up to 64, lines "
         "one by one]",
         [&](auto& v) {
             s.batch = static_cast<std::uint32_t>(parse_count("--batch", v, 1, count_32));

@@ -6,14 +6,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/ball.h"
 #include "lines/edge_walk.h"
+#include "lines/facets.h"
+#include "lines/sheets.h"
 
 namespace parallux {
 
 namespace {
-
-// Planes closer than this, in radii, are meant to be one: what is left of coordinates in 24 bits.
-constexpr double coordinate_rounding = 1e-6;
 
 struct Lattice {
     std::int64_t x, y;  // fixed point
@@ -77,20 +77,60 @@ bool convex(const Scene& scene, const Surface& a, const Surface& b) {
 
 }  // namespace
 
+SurfaceRelations::Relation SurfaceRelations::find(const Surface& a, const Surface& b) const {
+    if (a.is_curved() || b.is_curved())
+        return apart;  // nothing asks: TieOrder has its own way
+    const glm::dvec3 normal = surface_normal(scene_, a);
+    const bool along = std::fabs(glm::dot(normal, surface_normal(scene_, b))) > 0.9999;
+    if (!touch(a, b))
+        return along ? parallel : apart;
+    // Along each other from a common corner on: in one plane, if no corner leaves it.
+    const glm::dvec3 origin = scene_.positions[a.corner[0]];
+    for (std::uint32_t corner : b.corner)
+        if (corner != none && std::fabs(glm::dot(normal, scene_.positions[corner] - origin)) >
+                                  coordinate_rounding * radius_)
+            return touching;
+    return along ? parallel : touching;
+}
+
 SurfaceRelations::Relation SurfaceRelations::of(std::uint32_t a, std::uint32_t b) {
     if (a > b)
         std::swap(a, b);
     Known& known = known_[(a * 0x9e3779b1u ^ b * 0x85ebca77u) >> 20];
     if (known.a != a || known.b != b) {
-        const Surface &first = scene_.surfaces[a], &second = scene_.surfaces[b];
-        bool along = std::fabs(glm::dot(surface_normal(scene_, first),
-                                        surface_normal(scene_, second))) > 0.9999;
-        known = {a, b, touch(first, second) ? touching : along ? parallel : apart};
+        known = {a, b, find(scene_.surfaces[a], scene_.surfaces[b])};
     }
     return known.relation;
 }
 
+// Halves of spheres among themselves and with planes: by doubles, unsnapped. What touches is in one
+// place only there; two identical spheres are by the scene's order.
+bool TieOrder::before_curved(const Hit& a, const Hit& b) const {
+    auto depth = [&](const Hit& hit) {
+        const Surface& surface = scene_.surfaces[hit.surface];
+        if (surface.is_curved())
+            return ball_depth(projection_.balls[surface.curve], is_far_half(surface), column_,
+                              row_);
+        const double facing =
+            glm::dot(surface_normal(scene_, surface), projection_.bundle.direction);
+        return std::fabs(facing) > 1e-3
+                   ? plane_depth(projection_, scene_, centre_, hit.surface, column_, row_)
+                   : exact_depth(projection_, scene_, centre_, hit.surface, column_, row_);
+    };
+    const Surface &s = scene_.surfaces[a.surface], &t = scene_.surfaces[b.surface];
+    if (s.curve == t.curve)
+        return a.surface < b.surface;
+    const double difference = depth(a) - depth(b);
+    if (std::fabs(difference) > 1e-12)
+        return difference < 0;
+    const int a_rank = place_rank(from_behind(a), relations_.is_sheet(a.surface));
+    const int b_rank = place_rank(from_behind(b), relations_.is_sheet(b.surface));
+    return a_rank != b_rank ? a_rank < b_rank : (a.surface < b.surface) != from_behind(a);
+}
+
 bool TieOrder::before(const Hit& a, const Hit& b) const {
+    if (scene_.surfaces[a.surface].is_curved() || scene_.surfaces[b.surface].is_curved())
+        return before_curved(a, b);
     SurfaceRelations::Relation relation = relations_.of(a.surface, b.surface);
     // Surfaces of one plane differ by no more than their corners' snapping: at slopes to 16, or
     // what their own slopes make of it where the direction grazes them. Planes that cross are in
@@ -118,15 +158,22 @@ bool TieOrder::before(const Hit& a, const Hit& b) const {
     }
     if (std::fabs(across) > coordinate_rounding)
         return gap < 0;
-    // In one place: the air lies between a floor and what stands on it, so that the one met from
-    // behind comes first; but a line along the edge of a solid enters it before it leaves.
-    if (from_behind(a) != from_behind(b))
-        return from_behind(a) !=
-               (relation == SurfaceRelations::touching &&
-                convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]));
+    const bool a_behind = from_behind(a), b_behind = from_behind(b);
+    if (relation == SurfaceRelations::touching) {
+        // A line along the edge of a solid enters it before it leaves.
+        if (a_behind != b_behind)
+            return a_behind !=
+                   convex(scene_, scene_.surfaces[a.surface], scene_.surfaces[b.surface]);
+    } else {
+        const int a_rank = place_rank(a_behind, relations_.is_sheet(a.surface));
+        const int b_rank = place_rank(b_behind, relations_.is_sheet(b.surface));
+        if (a_rank != b_rank)
+            return a_rank < b_rank;
+    }
     if (std::fabs(gap) > 1e-9)
         return gap < 0;
-    return a.surface < b.surface;
+    // Both look the same way; the first of the scene lies in front, from wherever it is met.
+    return (a.surface < b.surface) != a_behind;
 }
 
 bool TieOrder::from_behind(const Hit& hit) const {

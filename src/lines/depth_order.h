@@ -21,6 +21,9 @@ inline bool touch(const Surface& a, const Surface& b) {
     return false;
 }
 
+/// Planes closer than this, in radii, are meant to be one: what is left of coordinates in 24 bits.
+inline constexpr double coordinate_rounding = 1e-6;
+
 /// Surfaces without a common corner whose depths differ by less than this, in radii, lie in one
 /// place: no more than their corners' snapping, at slopes to 16.
 inline float same_place(const Projection& projection) {
@@ -34,26 +37,37 @@ inline float near_tie(double spacing, double radius) {
 }
 
 /// How two surfaces lie to each other. The same for all bundles, so that what was found is kept.
+///  apart     no corner in common, planes that cross
+///  parallel  planes along each other; with a corner in common one plane
+///  touching  a corner in common, planes that cross
 class SurfaceRelations {
 public:
     enum Relation : std::uint8_t { apart, parallel, touching };
 
-    explicit SurfaceRelations(const Scene& scene) : scene_(scene) {}
+    /// `radius` of the scene's sphere, metres; sheet_faces().
+    SurfaceRelations(const Scene& scene, double radius, const std::vector<bool>& sheets)
+        : scene_(scene), radius_(radius), sheets_(sheets) {}
     Relation of(std::uint32_t a, std::uint32_t b);
+    bool is_sheet(std::uint32_t surface) const { return sheets_[surface]; }
 
 private:
     struct Known {
         std::uint32_t a = none, b = none;
         Relation relation = apart;
     };
+    Relation find(const Surface& a, const Surface& b) const;
+
     const Scene& scene_;
+    double radius_;
+    const std::vector<bool>& sheets_;
     std::vector<Known> known_ = std::vector<Known>(1 << 12);
 };
 
 /// The order of two hits of one line that rounding may have turned. Faces that share a corner by
 /// the exact depth of their snapped corners, in which two faces meet along their common edge;
 /// others by their own, unsnapped planes; and where those are one, so that the one met from behind
-/// comes first (a solid that stands on a floor: the gap is between them).
+/// comes first (a solid that stands on a floor: the gap is between them) and the faces of sheets as
+/// those of a solid (place_rank()). SharedPlaces has the same order for rays.
 class TieOrder {
 public:
     /// `slack[surface]` is how far snapping may have moved the depths of each.
@@ -72,6 +86,7 @@ public:
     bool before(const Hit& a, const Hit& b) const;
 
 private:
+    bool before_curved(const Hit& a, const Hit& b) const;
     bool from_behind(const Hit& hit) const;
 
     const Projection& projection_;

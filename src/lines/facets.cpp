@@ -5,10 +5,12 @@
 #include <cmath>
 #include <unordered_map>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "lines/rims.h"
+#include "lines/welder.h"
 #include "parallux/error.h"
+#include "parallux/lines.h"
 #include "surfaces/curve.h"
 
 namespace parallux {
@@ -16,50 +18,6 @@ namespace parallux {
 namespace {
 
 constexpr double bend = 1.0 / 72, same_place = 1e-9;
-
-// Gives nearly equal positions one number: that of a planar surface's corner where there is one.
-class Welder {
-public:
-    Welder(const Scene& scene, std::vector<glm::dvec3>& positions, double tolerance)
-        : positions_(positions), tolerance_(tolerance) {
-        std::vector<bool> known(positions.size());
-        for (const Surface& surface : scene.surfaces)
-            for (std::uint32_t corner : surface.corner)
-                if (!surface.is_curved() && corner != none && !known[corner]) {
-                    known[corner] = true;
-                    cells_.emplace(key(positions[corner]), corner);
-                }
-    }
-
-    std::uint32_t weld(const glm::dvec3& p) {
-        // The cells that the box about it touches: one as a rule.
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec3 way(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-            auto [begin, end] = cells_.equal_range(key(p + tolerance_ * way));
-            for (; begin != end; ++begin)
-                if (glm::distance(positions_[begin->second], p) <= tolerance_)
-                    return begin->second;
-        }
-        const auto number = static_cast<std::uint32_t>(positions_.size());
-        positions_.push_back(p);
-        cells_.emplace(key(p), number);
-        return number;
-    }
-
-private:
-    std::uint64_t key(const glm::dvec3& p) const {
-        std::uint64_t key = 0;
-        for (int axis = 0; axis < 3; ++axis)
-            key = (key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(
-                             std::floor(p[axis] / (16 * tolerance_))))) *
-                  0x9E3779B97F4A7C15u;
-        return key;
-    }
-
-    std::vector<glm::dvec3>& positions_;
-    double tolerance_;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> cells_;
-};
 
 // A curved surface cut along u and v; corners row by row.
 struct Cut {
@@ -71,26 +29,10 @@ struct Cut {
     std::uint32_t at(std::size_t i, std::size_t j) const { return corner[j * u.size() + i]; }
 };
 
-// An edge of a facet that lies on its surface's own edge, and the corners of others on it.
-struct Rim {
-    std::uint32_t surface, from, to;
-    glm::dvec2 uv_from, uv_to;
-    struct Taken {
-        double along;
-        std::uint32_t corner;
-    };
-    std::vector<Taken> taken = {};
-    bool parted = false;  ///< its facet has been parted at them
-
-    std::uint32_t end_of(std::size_t k) const {
-        return k + 1 < taken.size() ? taken[k + 1].corner : to;
-    }
-};
-
 class Cutter {
 public:
-    Cutter(const Scene& scene, const Patches& patches, double chord)
-        : scene_(scene), patches_(patches), chord_(chord) {
+    Cutter(const Scene& scene, const Patches& patches, double chord, Spheres spheres)
+        : scene_(scene), patches_(patches), chord_(chord), spheres_(spheres) {
         const Bounds bounds = scene_bounds(scene);
         tolerance_ = same_place * glm::length(bounds.high - bounds.low);
         facets_.scene.positions = scene.positions;
@@ -102,10 +44,15 @@ public:
             if (!scene_.surfaces[s].is_curved())
                 keep(s);
         for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s)
-            if (scene_.surfaces[s].is_curved())
-                cut(s, welder);
+            if (scene_.surfaces[s].is_curved()) {
+                if (is_ball(scene_.surfaces[s]))
+                    halve(s);
+                else
+                    cut(s, welder);
+            }
         find_rims();
-        take_corners();
+        take_corners(scene_, facets_.scene.positions, {chord_, bend, tolerance_}, curved_rims_,
+                     rims_);
         for (const Cut& cut : cuts_)
             emit(cut);
         for (const Rim& rim : rims_)
@@ -118,6 +65,26 @@ private:
         facets_.scene.surfaces.push_back(scene_.surfaces[s]);
         facets_.patches.grids.push_back(patches_.grids[s]);
         facets_.parent.push_back(s);
+    }
+
+    bool is_ball(const Surface& surface) const {
+        return spheres_ == Spheres::halves && is_whole_sphere(scene_.curves[surface.curve]);
+    }
+
+    // Both halves have the centre for all corners.
+    void halve(std::uint32_t s) {
+        const Curve& curve = scene_.curves[scene_.surfaces[s].curve];
+        Surface half;
+        half.corner.fill(static_cast<std::uint32_t>(facets_.scene.positions.size()));
+        half.curve = static_cast<std::uint32_t>(facets_.scene.curves.size());
+        facets_.scene.positions.push_back(curve.origin + curve.point[0].y * curve.frame[2]);
+        facets_.scene.curves.push_back(curve);
+        for (std::uint16_t far : {std::uint16_t(0), std::uint16_t(1)}) {
+            half.grid_u = far;
+            facets_.scene.surfaces.push_back(half);
+            facets_.patches.grids.push_back(patches_.grids[s]);
+            facets_.parent.push_back(s);
+        }
     }
 
     void cut(std::uint32_t s, Welder& welder) {
@@ -214,75 +181,6 @@ private:
             rims_.push_back({s, from, to, uv_from, uv_to});
     }
 
-    glm::dvec3 on(const Rim& rim, double along) const {
-        const glm::dvec2 uv = rim.uv_from + along * (rim.uv_to - rim.uv_from);
-        return surface_point(scene_, scene_.surfaces[rim.surface], uv.x, uv.y);
-    }
-
-    // Every corner of a curved surface's edge, and planar corners for curved edges, by place.
-    void take_corners() {
-        struct Corner {
-            double x;
-            std::uint32_t number;
-            bool curved;
-        };
-        const std::vector<glm::dvec3>& positions = facets_.scene.positions;
-        std::vector<Corner> corners;
-        std::vector<std::uint8_t> seen(positions.size(), 0);
-        for (std::size_t r = 0; r < rims_.size(); ++r)
-            for (std::uint32_t corner : {rims_[r].from, rims_[r].to})
-                if (!seen[corner]) {
-                    seen[corner] = 1;
-                    corners.push_back({positions[corner].x, corner, r < curved_rims_});
-                }
-        std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
-            return a.x != b.x ? a.x < b.x : a.number < b.number;
-        });
-        std::vector<Corner> of_curves;
-        for (const Corner& corner : corners)
-            if (corner.curved)
-                of_curves.push_back(corner);
-        for (std::size_t r = 0; r < rims_.size(); ++r) {
-            Rim& rim = rims_[r];
-            const bool curved = r < curved_rims_;
-            const glm::dvec3 a = positions[rim.from], b = positions[rim.to];
-            const double room =
-                tolerance_ + (curved ? 1.5 * std::min(chord_, bend * glm::distance(a, b)) : 0);
-            const glm::dvec3 low = glm::min(a, b) - room, high = glm::max(a, b) + room;
-            const std::vector<Corner>& others = curved ? corners : of_curves;
-            auto next = std::lower_bound(others.begin(), others.end(), low.x,
-                                         [](const Corner& c, double x) { return c.x < x; });
-            for (; next != others.end() && next->x <= high.x; ++next) {
-                const glm::dvec3& p = positions[next->number];
-                if (next->number == rim.from || next->number == rim.to || p.y < low.y ||
-                    p.y > high.y || p.z < low.z || p.z > high.z)
-                    continue;
-                take(rim, next->number, p);
-            }
-            std::sort(rim.taken.begin(), rim.taken.end(), [](const auto& c, const auto& d) {
-                return c.along != d.along ? c.along < d.along : c.corner < d.corner;
-            });
-        }
-    }
-
-    // Takes a corner up where it lies on the rim: its nearest point by golden section.
-    void take(Rim& rim, std::uint32_t corner, const glm::dvec3& p) const {
-        double from = 0, to = 1;
-        const double golden = 0.5 * (std::sqrt(5.0) - 1);
-        for (int step = 0; step < 80; ++step) {
-            const double a = to - golden * (to - from), b = from + golden * (to - from);
-            if (glm::distance(on(rim, a), p) < glm::distance(on(rim, b), p))
-                to = b;
-            else
-                from = a;
-        }
-        const double along = 0.5 * (from + to);
-        // The search ends at half of a double's digits.
-        const double length = glm::distance(on(rim, 0), on(rim, 1));
-        if (glm::distance(on(rim, along), p) <= 2 * tolerance_ + 1e-9 * length)
-            rim.taken.push_back({along, corner});
-    }
-
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t s,
                   std::uint32_t cell) {
         if (a == b || b == c || c == a)
@@ -359,6 +257,7 @@ private:
     const Scene& scene_;
     const Patches& patches_;
     double chord_, tolerance_ = 0;
+    Spheres spheres_;
     std::size_t count_ = 0, curved_rims_ = 0;
     Facets facets_;
     std::vector<Cut> cuts_;
@@ -367,8 +266,34 @@ private:
 
 }  // namespace
 
-Facets make_facets(const Scene& scene, const Patches& patches, double chord) {
-    return Cutter(scene, patches, chord).cut();
+Facets make_facets(const Scene& scene, const Patches& patches, double chord, Spheres spheres) {
+    return Cutter(scene, patches, chord, spheres).cut();
+}
+
+double facet_chord(const Scene& scene, double spacing) {
+    return (spacing > 0 ? spacing : 1e-3 * line_sphere(scene).radius) / 8;
+}
+
+std::uint64_t facets_bytes(const Scene& scene, const Patches& patches, double spacing,
+                           std::uint64_t projections) {
+    if (!has_curves(scene))
+        return 0;
+    std::uint64_t facets = 0, corners = 0;
+    const double chord = facet_chord(scene, spacing);
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        if (!surface.is_curved() || is_whole_sphere(scene.curves[surface.curve]))
+            continue;
+        const Curve& curve = scene.curves[surface.curve];
+        const std::uint64_t u = curve_cuts(curve, true, patches.grids[s].nu, chord, bend).size();
+        const std::uint64_t v = curve_cuts(curve, false, patches.grids[s].nv, chord, bend).size();
+        facets += 2 * (u - 1) * (v - 1);
+        corners += u * v;
+    }
+    // Arrays that grow hold up to twice their content.
+    const std::uint64_t a_facet = 2 * (sizeof(Surface) + sizeof(SurfaceGrid) + 4);
+    return facets * (a_facet + 8 * projections) +
+           corners * (2 * sizeof(glm::dvec3) + 4 + 12 * projections);
 }
 
 }  // namespace parallux

@@ -16,6 +16,7 @@
 
 #include "lines/fill_surface.h"
 #include "lines/hit_layers.h"
+#include "lines/hits-inl.h"
 #include "lines/line_lanes-inl.h"
 #include "lines/small_surface.h"
 
@@ -69,20 +70,18 @@ HWY_INLINE void fill_small(const Edge* edges, const DepthPlane& plane, const Sma
 
 // The hits of a surface on neighbouring lines of a row. Most often they have met equally many
 // surfaces so far, and their keys go to one layer as they are.
-void fill_run(const DepthPlane& plane, std::int32_t x, std::int32_t y, std::int32_t line,
-              std::int32_t count, std::uint32_t id, bool steep, HitLayers& layers) {
+// depths_at(k): the depths of the k-th line and those after it.
+template <class Depths>
+HWY_INLINE void fill_run(std::int32_t line, std::int32_t count, std::uint32_t id, bool steep,
+                         HitLayers& layers, Depths&& depths_at) {
     const Ints i;
-    const Floats d;
     const hn::Rebind<std::uint8_t, Ints> d8;
     const std::int32_t lanes = static_cast<std::int32_t>(hn::Lanes(i));
-    const float down = plane.at + plane.per_row * static_cast<float>(y);
     if (steep)
         std::memset(layers.unsure() + line, 1, static_cast<std::size_t>(count));
     alignas(64) std::int32_t depth[16];
     for (std::int32_t k = 0; k < count; k += lanes) {
-        const auto column = hn::ConvertTo(d, hn::Add(hn::Iota(i, 0), hn::Set(i, x + k)));
-        const VI depths = hn::ConvertTo(
-            i, hn::Add(hn::Set(d, down), hn::Mul(hn::Set(d, plane.per_column), column)));
+        const VI depths = depths_at(k);
         const std::int32_t left = std::min(count - k, lanes), first = line + k;
         std::uint8_t* own = layers.counts() + first;
         const auto counts = hn::LoadU(d8, own);
@@ -123,6 +122,8 @@ struct Filler {
         for (int k = 0; k < 4; ++k)  // a triangle has its last corner twice
             p[k] = &tile.projection.corners[surface.corner[k] == none ? surface.corner[k - 1]
                                                                       : surface.corner[k]];
+        if (surface.is_curved())
+            return fill_half(view, surface);
         const Rectangle box = rectangle_of(tile.projection, surface);
         if (box.right - box.left <= small_extent && box.bottom - box.top <= small_extent &&
             turn_of(tile.projection, surface) != 0 && fits(p))
@@ -218,10 +219,45 @@ private:
         set_view(view, grid, turned > 0, plane);
         fill_convex(tile.projection, surface, tile.bounds,
                     [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
+                        const Ints i;
+                        const Floats d;
                         const std::int32_t x = begin - tile.bounds.left, y = row - tile.bounds.top;
-                        fill_run(plane, x, y, y * HitLayers::side + x, end - begin,
-                                 id_of(view, grid), is_steep, layers);
+                        const float down = plane.at + plane.per_row * static_cast<float>(y);
+                        fill_run(y * HitLayers::side + x, end - begin, id_of(view, grid), is_steep,
+                                 layers, [&](std::int32_t k) {
+                                     const auto column = hn::ConvertTo(
+                                         d, hn::Add(hn::Iota(i, 0), hn::Set(i, x + k)));
+                                     return hn::ConvertTo(
+                                         i, hn::Add(hn::Set(d, down),
+                                                    hn::Mul(hn::Set(d, plane.per_column), column)));
+                                 });
                     });
+    }
+
+    // Half of a sphere.
+    void fill_half(std::size_t view, const Surface& surface) {
+        const Ints i;
+        const Floats d;
+        const SurfaceGrid& grid = tile.patches.grids[tile.surfaces[view]];
+        const SurfaceView own =
+            view_of(tile.projection, tile.scene, tile.patches, tile.surfaces[view]);
+        layers.set_view(view, own.toward, own.away, own.moved);
+        const Projection::Ball& ball = *own.ball;
+        const auto middle =
+            hn::Set(d, static_cast<float>((ball.depth + key_depth_zero) * key_depth_one));
+        const auto per_spacing = hn::Set(
+            d, static_cast<float>((own.far ? 1 : -1) * ball.per_spacing * key_depth_one));
+        fill_ball(ball, tile.bounds, [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
+            const BallRow lines = row_of(ball, row);
+            const std::int32_t line = (row - tile.bounds.top) * HitLayers::side +
+                                      (begin - tile.bounds.left);
+            fill_run(line, end - begin, id_of(view, grid), false, layers, [&](std::int32_t k) {
+                const auto x = hn::ConvertTo(d, hn::Add(hn::Iota(i, 0), hn::Set(i, k)));
+                VF aside;
+                const VF half = ball_half(d, lines, x, begin, aside);
+                return hn::ConvertTo(i, hn::Add(middle, hn::Mul(per_spacing, half)));
+            });
+        });
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lines/ball.h"
 #include "lines/edge_walk.h"
 #include "lines/rectangle.h"
 #include "lines/tile_bounds.h"
@@ -18,6 +19,8 @@ inline constexpr std::int32_t most_tile_rows = 64;
 template <class Emit>
 void fill_surface(const Projection& projection, const Surface& surface, const TileBounds& tile,
                   Emit&& emit) {
+    if (surface.is_curved())
+        return fill_ball(projection.balls[surface.curve], tile, emit);
     unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;
     Rectangle r = rectangle_of(projection, surface);
     std::int32_t first = std::max(tile.top, r.top), end = std::min(tile.bottom, r.bottom);
@@ -74,7 +77,7 @@ inline int turn_of(const Projection& projection, const Surface& surface) {
 template <class Emit>
 void fill_convex(const Projection& projection, const Surface& surface, const TileBounds& tile,
                  Emit&& emit) {
-    const int turn = turn_of(projection, surface);
+    const int turn = surface.is_curved() ? 0 : turn_of(projection, surface);
     if (turn == 0)
         return fill_surface(projection, surface, tile, emit);
     unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;

@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include "lines/ball.h"
 #include "lines/squeezed_lanes.h"
 #include "lines/surface_view.h"
 
@@ -51,9 +52,77 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<D>> cell_of(D d, const SurfaceView& view, 
     return hn::Add(hn::Mul(iv, hn::Sub(hn::Add(n, n), iv)), k);
 }
 
+// atan2(y, x) by a polynomial to 2e-8 (M. Abramowitz and I. Stegun, Handbook of Mathematical
+// Functions, 1964, 4.4.49) and a float's rounding.
+template <class D>
+HWY_INLINE hn::Vec<D> angle_of(D d, hn::Vec<D> y, hn::Vec<D> x) {
+    const hn::Vec<D> up = hn::Abs(y), along = hn::Abs(x), half_turn = hn::Set(d, 3.14159265f);
+    const hn::Vec<D> most = hn::Max(hn::Max(up, along), hn::Set(d, 1e-30f));
+    const hn::Vec<D> a = hn::Div(hn::Min(up, along), most), square = hn::Mul(a, a);
+    constexpr float c[] = {0.0028662257f, -0.0161657367f, 0.0429096138f, -0.0752896400f,
+                           0.1065626393f, -0.1420889944f, 0.1999355085f, -0.3333314528f};
+    hn::Vec<D> sum = hn::Set(d, c[0]);
+    for (int k = 1; k < 8; ++k)
+        sum = hn::Add(hn::Mul(sum, square), hn::Set(d, c[k]));
+    hn::Vec<D> angle = hn::Mul(a, hn::Add(hn::Mul(sum, square), hn::Set(d, 1.0f)));
+    angle = hn::IfThenElse(hn::Gt(up, along), hn::Sub(hn::Set(d, 1.57079633f), angle), angle);
+    angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(half_turn, angle), angle);
+    return hn::CopySign(angle, y);
+}
+
+// From the ends of a row of a sphere a line's depth is √(way from the left · way from the right),
+// which loses no digits near the outline.
+template <class D>
+HWY_INLINE hn::Vec<D> ball_half(D d, const BallRow& row, hn::Vec<D> x, std::int32_t column,
+                                hn::Vec<D>& aside) {
+    const hn::Vec<D> left = hn::Add(hn::Add(x, hn::Set(d, static_cast<float>(column - row.begin))),
+                                    hn::Set(d, row.before));
+    const hn::Vec<D> right =
+        hn::Add(hn::Sub(hn::Set(d, static_cast<float>(row.end - 1 - column)), x),
+                hn::Set(d, row.beyond));
+    aside = hn::Mul(hn::Set(d, 0.5f), hn::Sub(left, right));
+    return hn::Sqrt(hn::Max(hn::Mul(left, right), hn::Zero(d)));
+}
+
+// hits_of() on half of a sphere.
+template <class D>
+HWY_NOINLINE Hits<D> ball_hits(D d, const SurfaceView& view, hn::Vec<D> x, float y) {
+    const Projection::Ball& ball = *view.ball;
+    const std::int32_t line_row = view.row + static_cast<std::int32_t>(y);
+    hn::Vec<D> aside;
+    hn::Vec<D> half = ball_half(d, row_of(ball, line_row), x, view.column, aside);
+    if (!view.far)
+        half = hn::Neg(half);
+    Hits<D> hits;
+    hits.depth = hn::Add(hn::Set(d, static_cast<float>(ball.depth)),
+                         hn::Mul(half, hn::Set(d, static_cast<float>(ball.per_spacing))));
+    hits.cell = hn::Zero(hn::RebindToSigned<D>());
+    if (view.nu * view.nv == 1)
+        return hits;
+    const float down = static_cast<float>(line_row - ball.y);
+    auto own = [&](int axis) {
+        const hn::Vec<D> across = hn::Mul(hn::Set(d, ball.axes[0][axis]), aside);
+        return hn::Add(hn::Add(across, hn::Set(d, ball.axes[1][axis] * down)),
+                       hn::Mul(hn::Set(d, ball.axes[2][axis]), half));
+    };
+    const hn::Vec<D> px = own(0), py = own(1), pz = own(2);
+    const hn::Vec<D> zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const hn::Vec<D> from_axis = hn::Sqrt(hn::Add(hn::Mul(px, px), hn::Mul(py, py)));
+    const hn::Vec<D> u = hn::Add(hn::Mul(angle_of(d, pz, from_axis), hn::Set(d, 0.318309886f)),
+                                 hn::Set(d, 0.5f));
+    hn::Vec<D> v = hn::Mul(angle_of(d, py, px), hn::Set(d, 0.159154943f));
+    v = hn::IfThenElse(hn::Lt(v, zero), hn::Add(v, one), v);
+    if (ball.turned)
+        v = hn::Sub(one, v);
+    hits.cell = cell_of(d, view, hn::Min(hn::Max(u, zero), one), hn::Min(hn::Max(v, zero), one));
+    return hits;
+}
+
 // The hits of lines at x columns and y rows from the view's own.
 template <class D>
 HWY_INLINE Hits<D> hits_of(D d, const SurfaceView& view, hn::Vec<D> x, float y) {
+    if (view.ball)
+        return ball_hits(d, view, x, y);
     const hn::Vec<D> zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const float u_row = view.u_row * y, v_row = view.v_row * y;
     hn::Vec<D> u = hn::Add(hn::Set(d, view.u),

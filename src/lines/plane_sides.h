@@ -10,7 +10,8 @@
 namespace parallux {
 
 /// On which side of each surface's plane every other surface lies: the same for all directions, so
-/// that a bundle's depth order follows from signs alone. n² bytes; for scenes of few surfaces.
+/// that a bundle's depth order follows from signs alone. Halves of spheres are parted from others by
+/// planes that touch the sphere. n² bytes; for scenes of few surfaces.
 class PlaneSides {
 public:
     static constexpr std::size_t most_surfaces = 256;
@@ -29,9 +30,20 @@ private:
     // the plane.
     std::int8_t side(std::size_t a, std::size_t b) const { return sides_[a * count_ + b]; }
 
+    // How one half of a sphere lies to another surface.
+    struct Beside {
+        glm::dvec3 toward{0};  ///< of a plane that parts both, to the other; or 0
+        bool within = false;   ///< the other lies in the sphere
+    };
+    static Beside beside(const Scene& scene, const Surface& ball, const Surface& other);
+    // 1: half `ball` of a sphere comes before another surface, -1: after it, 0: nobody can tell.
+    int half_order(const Scene& scene, std::size_t ball, std::size_t other,
+                   const glm::dvec3& direction) const;
+
     std::size_t count_;
     std::vector<std::int8_t> sides_;
     std::vector<glm::dvec3> normals_;
+    std::vector<std::vector<Beside>> beside_;  // of halves of spheres, by surface
 };
 
 }  // namespace parallux

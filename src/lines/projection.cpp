@@ -6,12 +6,14 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/ball.h"
 #include "lines/facets.h"
 #include "lines/fill_surface.h"
 #include "lines/hit_layers.h"
 #include "lines/painter.h"
 #include "lines/plane_sides.h"
 #include "lines/rectangle.h"
+#include "lines/sheets.h"
 #include "parallel.h"
 #include "parallux/error.h"
 #include "parallux/lines.h"
@@ -36,9 +38,7 @@ std::shared_ptr<const Facets> facets_of(const Scene& scene, const Patches& patch
                                         double spacing) {
     if (!has_curves(scene))
         return nullptr;
-    if (!(spacing > 0))
-        spacing = 1e-3 * line_sphere(scene).radius;
-    return std::make_shared<Facets>(make_facets(scene, patches, spacing / 8));
+    return std::make_shared<Facets>(make_facets(scene, patches, facet_chord(scene, spacing)));
 }
 
 }  // namespace
@@ -46,7 +46,8 @@ std::shared_ptr<const Facets> facets_of(const Scene& scene, const Patches& patch
 Projector::Projector(const Scene& scene, const Patches& patches, Surfaces surfaces, double spacing)
     : facets_(facets_of(scene, patches, spacing)),
       scene_(facets_ ? facets_->scene : scene),
-      patches_(facets_ ? facets_->patches : patches) {
+      patches_(facets_ ? facets_->patches : patches),
+      sheets_(sheet_faces(scene_)) {
     LineSphere sphere = line_sphere(scene_);
     centre_ = sphere.centre;
     radius_ = sphere.radius;
@@ -69,6 +70,13 @@ struct Extent {
         bottom = std::max(bottom, other.bottom);
     }
 };
+
+Extent extent_of(const Projection::Ball& ball) {
+    auto fixed = [](double at) { return static_cast<std::int32_t>(at * fixed_one); };
+    constexpr double room = 2.0 / fixed_one;
+    return {fixed(ball.x - ball.radius - room), fixed(ball.x + ball.radius + room),
+            fixed(ball.y - ball.radius - room), fixed(ball.y + ball.radius + room)};
+}
 
 // Snaps every corner to the fixed-point grid.
 Extent snap_corners(const Bundle& bundle, const Scene& scene, const glm::dvec3& centre,
@@ -135,7 +143,10 @@ void Projector::project(const Bundle& bundle, Projection& projection, unsigned t
     check_spacing(bundle.spacing, radius_);
     projection.bundle = bundle;
     projection.radius = radius_;
-    const Extent extent = snap_corners(bundle, scene_, centre_, threads, projection);
+    Extent extent = snap_corners(bundle, scene_, centre_, threads, projection);
+    project_balls(bundle, scene_, centre_, projection);
+    for (const Projection::Ball& ball : projection.balls)
+        extent.add(extent_of(ball));
     LineWindow seen{first_line(extent.left), first_line(extent.right), first_line(extent.top),
                     first_line(extent.bottom)};
     if (window)

@@ -15,7 +15,7 @@
 namespace parallux {
 
 std::shared_ptr<Projector::Workspace> Projector::make_workspace() const {
-    return std::make_shared<Workspace>(scene_);
+    return std::make_shared<Workspace>(scene_, radius_, *sheets_);
 }
 
 void Projector::lists(const Projection& projection, std::size_t tile, Workspace& workspace,

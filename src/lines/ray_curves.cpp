@@ -17,20 +17,24 @@ RTCRay ray_of(const RTCRayN* rays, unsigned count, unsigned k) {
     return rtcGetRayFromRayN(const_cast<RTCRayN*>(rays), count, k);
 }
 
-bool skipped(const RayQuery& query, std::uint32_t surface, double t) {
-    return (surface == query.skip_a && t < query.near) ||
-           (surface == query.skip_b && t > 1 - query.near);
+// `near`: in t.
+bool skipped(const RayQuery& query, std::uint32_t surface, double t, double near) {
+    return (surface == query.skip_a && t < near) || (surface == query.skip_b && t > 1 - near);
 }
 
 }  // namespace
 
 RayCurves::RayCurves(const Scene& scene, const glm::dvec3& centre)
     : centre_(centre), curves_(scene.curves) {
+    const Bounds all = scene_bounds(scene);
     for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s) {
         const std::uint32_t number = scene.surfaces[s].curve;
         if (number == none)
             continue;
         const Curve& curve = curves_[number];
+        const Bounds box = curve_bounds(curve, 0, 1, 0, 1, 4);
+        const double near = std::max(1e-6 * glm::length(box.high - box.low),
+                                     1e-9 * glm::length(all.high - all.low));
         std::vector<double> u{0, 1}, v{0, 1};
         if (!is_quadric(curve)) {
             u = curve_cuts(curve, true, 2, HUGE_VAL, piece_bend);
@@ -38,7 +42,7 @@ RayCurves::RayCurves(const Scene& scene, const glm::dvec3& centre)
         }
         for (std::size_t j = 0; j + 1 < v.size(); ++j)
             for (std::size_t i = 0; i + 1 < u.size(); ++i) {
-                pieces_.push_back({number, u[i], u[i + 1], v[j], v[j + 1]});
+                pieces_.push_back({number, u[i], u[i + 1], v[j], v[j + 1], near});
                 surfaces_.push_back(s);
             }
     }
@@ -67,18 +71,18 @@ void RayCurves::bounds(const RTCBoundsFunctionArguments* arguments) {
 }
 
 template <class Visit>
-void RayCurves::meet(std::uint32_t number, const RTCRay& ray, Visit&& visit) const {
+void RayCurves::meet(std::uint32_t number, const RayQuery& query, Visit&& visit) const {
     const Piece& piece = pieces_[number];
     const Curve& curve = curves_[piece.curve];
-    const glm::dvec3 origin = centre_ + glm::dvec3(ray.org_x, ray.org_y, ray.org_z);
-    const glm::dvec3 direction(ray.dir_x, ray.dir_y, ray.dir_z);
     CurveRoot roots[4];
     const int count = is_quadric(curve)
-                          ? quadric_roots(curve, origin, direction, roots)
-                          : newton_roots(curve, origin, direction, piece.u0, piece.u1, piece.v0,
-                                         piece.v1, roots);
+                          ? quadric_roots(curve, query.origin, query.direction, roots)
+                          : newton_roots(curve, query.origin, query.direction, piece.u0, piece.u1,
+                                         piece.v0, piece.v1, roots);
+    const double near = piece.near / glm::length(query.direction);
     for (int k = 0; k < count; ++k)
-        visit(curve, roots[k]);
+        if (!skipped(query, surfaces_[number], roots[k].t, near))
+            visit(curve, roots[k]);
 }
 
 void RayCurves::intersect(const RTCIntersectFunctionNArguments* arguments) {
@@ -93,9 +97,13 @@ void RayCurves::intersect(const RTCIntersectFunctionNArguments* arguments) {
         RTCHitN* hits = RTCRayHitN_HitN(arguments->rayhit, n);
         const RTCRay ray = ray_of(rays, n, k);
         float far = ray.tfar;
-        own.meet(arguments->primID, ray, [&](const Curve& curve, const CurveRoot& root) {
+        std::uint32_t met = RTCHitN_geomID(hits, n, k) == arguments->geomID
+                                ? own.surfaces_[RTCHitN_primID(hits, n, k)]
+                                : none;
+        own.meet(arguments->primID, query, [&](const Curve& curve, const CurveRoot& root) {
             const auto t = static_cast<float>(root.t);
-            if (!(t > ray.tnear && t < far) || skipped(query, surface, root.t))
+            const bool first = t == far && met != none && surface < met;
+            if (!(t > ray.tnear && (t < far || first)))
                 return;
             const glm::vec3 normal(curve_normal(curve, root.u, root.v));
             const auto u = static_cast<float>(root.u), v = static_cast<float>(root.v);
@@ -106,6 +114,7 @@ void RayCurves::intersect(const RTCIntersectFunctionNArguments* arguments) {
                 return;
             }
             far = t;
+            met = surface;
             RTCRayN_tfar(rays, n, k) = t;
             RTCHitN_u(hits, n, k) = u;
             RTCHitN_v(hits, n, k) = v;
@@ -122,15 +131,14 @@ void RayCurves::intersect(const RTCIntersectFunctionNArguments* arguments) {
 void RayCurves::occluded(const RTCOccludedFunctionNArguments* arguments) {
     const auto& own = *static_cast<const RayCurves*>(arguments->geometryUserPtr);
     const auto& query = *reinterpret_cast<const RayQuery*>(arguments->context);
-    const std::uint32_t surface = own.surfaces_[arguments->primID];
     for (unsigned k = 0; k < arguments->N; ++k) {
         if (arguments->valid[k] != -1)
             continue;
         const RTCRay ray = ray_of(arguments->ray, arguments->N, k);
         bool met = false;
-        own.meet(arguments->primID, ray, [&](const Curve&, const CurveRoot& root) {
+        own.meet(arguments->primID, query, [&](const Curve&, const CurveRoot& root) {
             const auto t = static_cast<float>(root.t);
-            met = met || (t > ray.tnear && t < ray.tfar && !skipped(query, surface, root.t));
+            met = met || (t > ray.tnear && t < ray.tfar);
         });
         if (met)
             RTCRayN_tfar(arguments->ray, arguments->N, k) = -HUGE_VALF;

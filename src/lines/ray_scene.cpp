@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <embree3/rtcore.h>
 #include <pmmintrin.h>
@@ -11,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "lines/ray_curves.h"
+#include "lines/shared_places.h"
 #include "parallel.h"
 #include "parallux/error.h"
 
@@ -51,7 +53,7 @@ void filter(const RTCFilterFunctionNArguments* arguments) {
         unsigned geometry = RTCHitN_geomID(arguments->hit, arguments->N, i);
         unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, i);
         std::uint32_t surface = (*query->surface_of[geometry])[primitive];
-        if (surface == query->skip_a || surface == query->skip_b) {
+        if (query->skips(surface)) {
             arguments->valid[i] = 0;
         } else if (query->hits) {
             unsigned n = arguments->N;
@@ -77,10 +79,11 @@ struct RayScene::Data {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     glm::dvec3 centre{0};
+    SharedPlaces shared;
     std::vector<std::uint32_t> surface_of[2];  // geometry 0: triangles, 1: quads
     std::unique_ptr<RayCurves> curves;         // geometry 2; null: there are none
-    double near = 0;  // metres within which a curved surface does not see itself
 
+    explicit Data(const Scene& source) : shared(source) {}
     ~Data() {
         if (scene)
             rtcReleaseScene(scene);
@@ -125,15 +128,18 @@ struct RayScene::Data {
         rtcReleaseGeometry(geometry);
     }
 
-    RayQuery query() const {
+    RayQuery query(const glm::dvec3& origin, const glm::dvec3& direction) const {
         RayQuery q;
+        q.origin = origin;
+        q.direction = direction;
         rtcInitIntersectContext(&q.context);
         q.surface_of[0] = &surface_of[0];
         q.surface_of[1] = &surface_of[1];
         q.surface_of[2] = curves ? &curves->surfaces() : nullptr;
-        q.near = static_cast<float>(near);
         return q;
     }
+
+    bool is_curved(std::uint32_t surface) const { return curves && curves->holds(surface); }
 
     void add_curves(const Scene& source) {
         if (!has_curves(source))
@@ -143,6 +149,38 @@ struct RayScene::Data {
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, 2);
         rtcReleaseGeometry(geometry);
+    }
+
+    // What shares the place of a surface that a ray leaves or ends on; nothing where it begins or
+    // ends beside the surface.
+    std::span<const std::uint32_t> beside(std::uint32_t surface, const glm::dvec3& point) const {
+        const std::span<const std::uint32_t> others = shared.with(surface);
+        return others.empty() || shared.in_plane(surface, point) ? others
+                                                                 : std::span<const std::uint32_t>();
+    }
+
+    // Of some surfaces of one place, the first that a ray along the direction meets at the point
+    // after `from`, which it leaves; or, where it leaves none, the first of them and of what it has
+    // met there, but for `skip`.
+    SurfaceHit first_of(std::span<const std::uint32_t> others, const glm::dvec3& point,
+                        const glm::dvec3& direction, std::uint32_t from, SurfaceHit met,
+                        std::uint32_t skip = none) const {
+        for (std::uint32_t other : others) {
+            double u, v;
+            if (other == skip)
+                continue;
+            if (from != none && shared.before(other, from, direction))
+                continue;
+            if (met.surface != none && !shared.before(other, met.surface, direction))
+                continue;
+            if (!shared.holds(other, point, u, v))
+                continue;
+            met.surface = other;
+            met.u = static_cast<float>(u);
+            met.v = static_cast<float>(v);
+            met.back = shared.from_behind(other, direction);
+        }
+        return met;
     }
 
     RTCRay ray(const glm::dvec3& origin, const glm::dvec3& direction, double far) const {
@@ -161,7 +199,7 @@ struct RayScene::Data {
     }
 };
 
-RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_unique<Data>()) {
+RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_unique<Data>(scene)) {
     data_->device = rtcNewDevice(nullptr);
     if (!data_->device)
         fail("start on this machine", rtcGetDeviceError(nullptr));
@@ -176,7 +214,6 @@ RayScene::RayScene(const Scene& scene, unsigned threads) : data_(std::make_uniqu
     rtcSetSceneBuildQuality(data_->scene, RTC_BUILD_QUALITY_MEDIUM);
     data_->add(scene, 0);
     data_->add(scene, 1);
-    data_->near = 1e-5 * glm::length(bounds.high - bounds.low);
     data_->add_curves(scene);
     // Built inside an arena of so many threads; Embree's own setting would bind the whole process.
     unsigned workers = std::min(thread_count(threads), thread_count(0));
@@ -190,9 +227,15 @@ RayScene::~RayScene() = default;
 
 SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& direction, double far,
                              std::uint32_t skip) const {
+    const SharedPlaces& shared = data_->shared;
+    const std::span<const std::uint32_t> beside = data_->beside(skip, origin);
+    SurfaceHit hit = data_->first_of(beside, origin, direction, skip, {});
+    if (hit.surface != none)
+        return hit;
     DenormalsOff guard;
-    RayQuery query = data_->query();
+    RayQuery query = data_->query(origin, direction);
     query.skip_a = skip;
+    query.with_a = beside;
     RTCRayHit r{};
     r.ray = data_->ray(origin, direction, far);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -200,26 +243,64 @@ SurfaceHit RayScene::closest(const glm::dvec3& origin, const glm::dvec3& directi
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     float along = r.hit.Ng_x * r.ray.dir_x + r.hit.Ng_y * r.ray.dir_y + r.hit.Ng_z * r.ray.dir_z;
-    return to_hit(query, r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, along);
+    hit = to_hit(query, r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar, along);
+    const std::span<const std::uint32_t> others = shared.with(hit.surface);
+    if (others.empty())
+        return hit;
+    return data_->first_of(others, origin + double(hit.t) * direction, direction, none, hit, skip);
 }
 
 bool RayScene::blocked(const glm::dvec3& a, const glm::dvec3& b, std::uint32_t skip_a,
                        std::uint32_t skip_b) const {
+    const glm::dvec3 way = b - a;
+    const std::span<const std::uint32_t> with_a = data_->beside(skip_a, a);
+    const std::span<const std::uint32_t> with_b = data_->beside(skip_b, b);
+    if (data_->first_of(with_a, a, way, skip_a, {}).surface != none)
+        return true;
+    // Seen from its end, the ray goes the other way.
+    if (data_->first_of(with_b, b, -way, skip_b, {}).surface != none)
+        return true;
     DenormalsOff guard;
-    RayQuery query = data_->query();
+    RayQuery query = data_->query(a, way);
     query.skip_a = skip_a;
     query.skip_b = skip_b;
-    query.near /= static_cast<float>(std::max(glm::distance(a, b), 1e-30));
-    RTCRay r = data_->ray(a, b - a, 1);
+    query.with_a = with_a;
+    query.with_b = with_b;
+    RTCRay r = data_->ray(a, way, 1);
     rtcOccluded1(data_->scene, &query.context, &r);
     return r.tfar < 0;
+}
+
+glm::dvec3 RayScene::on_line(std::uint32_t surface, bool back, const glm::dvec3& point,
+                             const glm::dvec3& direction, double reach) const {
+    if (!data_->is_curved(surface))
+        return point;
+    thread_local std::vector<SurfaceHit> hits;
+    const glm::dvec3 from = point - reach * direction;
+    all(from, direction, 2 * reach, hits);
+    double nearest = HUGE_VAL, t = reach;
+    for (const SurfaceHit& hit : hits)
+        if (hit.surface == surface && hit.back == back &&
+            std::fabs(hit.t - reach) < std::fabs(nearest - reach))
+            t = nearest = hit.t;
+    return from + t * direction;
+}
+
+bool RayScene::covered(std::uint32_t surface, const glm::dvec3& out,
+                       const glm::dvec3& point) const {
+    return data_->first_of(data_->shared.with(surface), point, out, surface, {}).surface != none;
+}
+
+bool RayScene::covered_in_part(std::uint32_t surface, const glm::dvec3& out,
+                               std::span<const glm::dvec3> part) const {
+    return data_->shared.covers_part(surface, out, part);
 }
 
 void RayScene::all(const glm::dvec3& origin, const glm::dvec3& direction, double far,
                    std::vector<SurfaceHit>& hits) const {
     DenormalsOff guard;
     hits.clear();
-    RayQuery query = data_->query();
+    RayQuery query = data_->query(origin, direction);
     query.hits = &hits;
     RTCRayHit r{};
     r.ray = data_->ray(origin, direction, far);
@@ -230,18 +311,25 @@ void RayScene::all(const glm::dvec3& origin, const glm::dvec3& direction, double
     std::sort(hits.begin(), hits.end(), [](const SurfaceHit& a, const SurfaceHit& b) {
         return a.t != b.t ? a.t < b.t : a.surface < b.surface;
     });
-    // A line meets a plane once, and a curved surface as often as it likes.
-    const std::vector<std::uint32_t>* planes = data_->surface_of;
-    const bool curved = data_->curves != nullptr;
-    auto is_curved = [&](std::uint32_t surface) {
-        return curved && !std::binary_search(planes[0].begin(), planes[0].end(), surface) &&
-               !std::binary_search(planes[1].begin(), planes[1].end(), surface);
-    };
-    hits.erase(std::unique(hits.begin(), hits.end(),
-                           [&](const SurfaceHit& a, const SurfaceHit& b) {
-                               return a.surface == b.surface && !is_curved(a.surface);
-                           }),
-               hits.end());
+    // A flat surface is met once: a second time is its other half, which others may come before. A
+    // curved one is met as often as it likes.
+    auto kept = hits.begin();
+    for (const SurfaceHit& hit : hits)
+        if (data_->is_curved(hit.surface) ||
+            std::none_of(hits.begin(), kept,
+                         [&](const SurfaceHit& k) { return k.surface == hit.surface; }))
+            *kept++ = hit;
+    hits.erase(kept, hits.end());
+    // Those in one place by their order; anything else between them stays where it is.
+    for (std::size_t k = 1; k < hits.size(); ++k)
+        for (std::size_t at = k; at > 0; --at) {
+            const auto others = data_->shared.with(hits[at].surface);
+            if (std::find(others.begin(), others.end(), hits[at - 1].surface) == others.end() ||
+                !data_->shared.before(hits[at].surface, hits[at - 1].surface, direction))
+                break;
+            std::swap(hits[at - 1], hits[at]);
+            std::swap(hits[at - 1].t, hits[at].t);
+        }
 }
 
 }  // namespace parallux

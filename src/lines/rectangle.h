@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "lines/edge_walk.h"
 #include "parallux/lines.h"
@@ -14,8 +15,17 @@ struct Rectangle {
     bool empty() const { return left >= right || top >= bottom; }
 };
 
+/// The lines about a sphere.
+inline Rectangle ball_rectangle(const Projection::Ball& ball) {
+    auto first = [](double at) { return static_cast<std::int32_t>(std::ceil(at)); };
+    return {first(ball.x - ball.radius), first(ball.x + ball.radius), first(ball.y - ball.radius),
+            first(ball.y + ball.radius)};
+}
+
 /// The lines that a surface's snapped corners enclose.
 inline Rectangle rectangle_of(const Projection& projection, const Surface& surface) {
+    if (surface.is_curved())
+        return ball_rectangle(projection.balls[surface.curve]);
     unsigned corners = surface.shape() == Shape::triangle ? 3 : 4;
     const Projection::Corner& first = projection.corners[surface.corner[0]];
     std::int32_t low_x = first.x, high_x = first.x, low_y = first.y, high_y = first.y;

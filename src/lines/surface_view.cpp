@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "lines/ball.h"
 #include "lines/depth_order.h"
 #include "lines/edge_walk.h"
 
@@ -13,6 +14,8 @@ namespace parallux {
 SurfaceView view_of(const Projection& projection, const Scene& scene, const Patches& patches,
                     std::uint32_t s) {
     const Surface& surface = scene.surfaces[s];
+    if (surface.is_curved())
+        return ball_view(projection, scene, patches, s);
     const Projection::Corner& origin = projection.corners[surface.corner[0]];
     const Projection::Corner& end_u = projection.corners[surface.corner[1]];
     const Projection::Corner& end_v = projection.corners[surface.corner_v()];

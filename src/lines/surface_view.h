@@ -20,6 +20,8 @@ struct SurfaceView {
     std::uint32_t toward = none, away = none;  // first patch of either side
     std::uint32_t nu = 1, nv = 1;
     Shape shape = Shape::parallelogram;
+    const Projection::Ball* ball = nullptr;  ///< half of a sphere: (u, v) and depth are its roots
+    bool far = false;                        ///< the half that lines meet last
 };
 
 /// The view of a surface of a projected scene.
@@ -42,8 +44,13 @@ inline float depth_at(const SurfaceView& view, const Place& place) {
     return view.depth + (view.depth_u * place.u + view.depth_v * place.v);
 }
 
+/// The hit of a line on half of a sphere.
+Hit ball_hit(const SurfaceView& view, std::int32_t column, std::int32_t row);
+
 /// The hit of a line on a surface.
 inline Hit hit_at(const SurfaceView& view, std::int32_t column, std::int32_t row) {
+    if (view.ball)
+        return ball_hit(view, column, row);
     Place place = place_at(view, column, row);
     std::uint32_t cell = 0;
     if (view.nu * view.nv > 1)

@@ -17,7 +17,8 @@ struct Span {
 };
 
 struct Projector::Workspace {
-    explicit Workspace(const Scene& scene) : relations(scene) {}
+    Workspace(const Scene& scene, double radius, const std::vector<bool>& sheets)
+        : relations(scene, radius, sheets) {}
 
     SurfaceRelations relations;
     std::vector<SurfaceView> views;

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "lines/sheets.h"
 #include "parallel.h"
 
 namespace parallux {
@@ -147,12 +148,13 @@ private:
     }
 
     bool hidden(const PatchPoint& p, const ExposedPatch& patch, Spectrum& cover) const {
-        // Something that faces it lies upon it.
+        // Something that faces it lies upon it, and is not the other face of the same sheet.
         double height = std::max(rounding_, contact * patch.size);
         SurfaceHit hit =
             rays_.closest(p.position - rounding_ * patch.normal, patch.normal,
                           rounding_ + std::max(height, close_lamp * patch.size), p.surface);
-        if (hit.surface != none && !inert_back(hit)) {
+        if (hit.surface != none && !inert_back(hit) &&
+            !are_sheet(scene_, scene_.surfaces[hit.surface], scene_.surfaces[p.surface])) {
             const float* emission = &patches_.emission[std::size_t(patch_at(hit)) * patches_.bands];
             bool lamp =
                 std::any_of(emission, emission + patches_.bands, [](float e) { return e > 0; });

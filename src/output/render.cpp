@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "lines/ray_scene.h"
+#include "materials/walk.h"
 #include "output/interpolate.h"
 #include "output/tone.h"
 #include "parallel.h"
@@ -17,6 +19,8 @@ namespace parallux {
 namespace {
 
 constexpr double filter_radius = 0.75;  // of the tent over each pixel, in pixels
+// Off mirrors and through glass; off rough mirrors, which may meet a lamp or not.
+constexpr int walks_a_sample = 8, rough_walks_a_sample = 32;
 
 struct Ray {
     glm::dvec3 origin, direction;
@@ -82,6 +86,7 @@ public:
           settings_(settings),
           rays_(scene, settings.threads),
           field_(scene, patches, solution, rays_, settings.threads),
+          walks_(scene, patches, rays_),
           glare_(0.18 * std::exp2(settings.exposure) / usual_luminance(patches, solution)) {}
 
     // Fills one pixel of every layer.
@@ -94,11 +99,11 @@ public:
             // Place the samples on a Fibonacci lattice, shifted by pixel and bent to a tent.
             double dx = tent(std::fmod((i + 0.5) / samples + shift_x, 1.0));
             double dy = tent(std::fmod(i * 0.6180339887498949 + shift_y, 1.0));
-            add(sums, look(view.ray(x + 0.5 + dx, y + 0.5 + dy)));
+            add(sums, look(view.ray(x + 0.5 + dx, y + 0.5 + dy), random));
         }
         store(sums, samples, std::size_t(y) * picture.width + x, picture);
         picture.patch[std::size_t(y) * picture.width + x] =
-            patch_id(look(view.ray(x + 0.5, y + 0.5)));
+            patch_id(look(view.ray(x + 0.5, y + 0.5), random));
     }
 
 private:
@@ -128,7 +133,46 @@ private:
         return {};
     }
 
-    Sight look(const Ray& ray) const {
+    // Mirrors or is glass all over, and emits nothing.
+    bool is_dark(std::uint32_t patch) const {
+        const float* emission = &patches_.emission[std::size_t(patch) * patches_.bands];
+        return patches_.specular_share(patch) == 1 &&
+               std::all_of(emission, emission + patches_.bands, [](float e) { return e == 0; });
+    }
+
+    // What mirrors and glass show, beside what their diffuse part sends: sight is followed as walks
+    // of light are.
+    void add_shown(const Ray& ray, const SurfaceHit& hit, Random& random,
+                   Spectrum& radiance) const {
+        // Past backs that are seen through.
+        const glm::dvec3 before =
+            surface_point(scene_, scene_.surfaces[hit.surface], hit.u, hit.v) -
+            1e-3 * double(hit.t) * ray.direction;
+        const std::uint32_t bands = solution_.bands;
+        const int walks = walks_.rough(scene_.surfaces[hit.surface].material) ? rough_walks_a_sample
+                                                                              : walks_a_sample;
+        Weights weights;
+        weights.fill(1.0 / walks);
+        bool first = true;
+        auto visit = [&](const Walk& walk, const Weights& at) {
+            if (std::exchange(first, false) || is_dark(walk.patch()))
+                return;
+            const Spectrum seen = of_patches(walk.hit(), walk.patch()).radiance;
+            for (std::uint32_t b = 0; b < bands; ++b)
+                radiance[b] += static_cast<float>(at[b] * seen[b]);
+        };
+        auto sky = [&](const glm::dvec3& direction, const Weights& at) {
+            if (scene_.sky.kind == Sky::Kind::dark)
+                return;
+            const Spectrum seen = scene_.sky.radiance(direction);
+            for (std::uint32_t b = 0; b < bands; ++b)
+                radiance[b] += static_cast<float>(at[b] * seen[b]);
+        };
+        for (int k = 0; k < walks; ++k, first = true)
+            follow_sight(Walk(walks_, before, ray.direction), weights, bands, random, visit, sky);
+    }
+
+    Sight look(const Ray& ray, Random& random) const {
         Sight sight;
         SurfaceHit hit = meet(ray);
         if (hit.surface == none) {
@@ -138,8 +182,18 @@ private:
         }
         const Surface& surface = scene_.surfaces[hit.surface];
         const SurfaceGrid& grid = patches_.grids[hit.surface];
-        sight.patch = (hit.back ? grid.back : grid.front) +
-                      cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v);
+        sight = of_patches(hit, (hit.back ? grid.back : grid.front) +
+                                    cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v));
+        if (patches_.specular_share(sight.patch) > 0)
+            add_shown(ray, hit, random, sight.radiance);
+        return sight;
+    }
+
+    // What the patches themselves show.
+    Sight of_patches(const SurfaceHit& hit, std::uint32_t patch) const {
+        Sight sight;
+        const Surface& surface = scene_.surfaces[hit.surface];
+        sight.patch = patch;
         sight.normal = surface_normal(scene_, surface, hit.u, hit.v) * (hit.back ? -1.0 : 1.0);
         sight.albedo = surface_reflectance(scene_, hit.surface, hit.u, hit.v, hit.back);
         const std::uint32_t bands = solution_.bands;
@@ -201,6 +255,7 @@ private:
     const PictureSettings& settings_;
     RayScene rays_;
     Interpolation field_;
+    Walks walks_;
     double glare_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -33,13 +34,10 @@ double wanted_size(const Scene& scene, const PatchSettings& settings,
     return std::sqrt(total / static_cast<double>(settings.count ? settings.count : 10000));
 }
 
-// A whole number of cells of about the wanted size along a length.
+// A whole number of cells of about the wanted size along a length; too many for any scene are as
+// good as more.
 std::uint32_t cells(double length, double size) {
-    double n = std::round(length / size);
-    if (n > 1e9)
-        throw Error(Fault::memory, "a patch size of " + std::to_string(size) +
-                                       " m needs more than 2^31 patches; choose a larger one");
-    return n < 1 ? 1u : static_cast<std::uint32_t>(n);
+    return static_cast<std::uint32_t>(std::clamp(std::round(length / size), 1.0, 1e9));
 }
 
 // The lengths of a curved surface along u and v: those of its middle lines, which have the area of
@@ -71,9 +69,15 @@ void choose_grid(const Scene& scene, const Surface& surface, double area, double
     }
 }
 
+// Which patches there are, without their values: what is found to be too many takes no memory.
+struct Division {
+    Patches patches;
+    std::uint64_t count = 0;
+};
+
 // Divides the scene with cells of about one size (0: as the surfaces say).
-Patches divide(const Scene& scene, const PatchSettings& settings, const std::vector<double>& areas,
-               double size) {
+Division divide(const Scene& scene, const PatchSettings& settings, const std::vector<double>& areas,
+                double size) {
     Patches patches;
     patches.bands = scene.bands;
     patches.size = size;
@@ -88,16 +92,15 @@ Patches divide(const Scene& scene, const PatchSettings& settings, const std::vec
     // Number the patches surface by surface, fronts before backs.
     std::vector<SurfaceGrid> of_cluster(patches.clusters);
     std::uint64_t next = 0;
+    constexpr std::uint64_t far_too_many = std::uint64_t(1) << 60;
     auto number = [&](SurfaceGrid& grid, int side_count, std::uint64_t cell_count) {
+        next = std::min(next, far_too_many);
         grid.front = static_cast<std::uint32_t>(next);
         next += cell_count;
         if (side_count == 2) {
             grid.back = static_cast<std::uint32_t>(next);
             next += cell_count;
         }
-        if (next > 0x7fffffffull)
-            throw Error(Fault::memory, scene.file.string() +
-                                           ": more than 2^31 patches; choose a larger patch size");
     };
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         const Surface& surface = scene.surfaces[s];
@@ -118,8 +121,7 @@ Patches divide(const Scene& scene, const PatchSettings& settings, const std::vec
         number(grid, sides(scene, surface), static_cast<std::uint64_t>(grid.nu) * grid.nv);
     }
 
-    set_patch_values(scene, areas, static_cast<std::size_t>(next), patches);
-    return patches;
+    return {std::move(patches), next};
 }
 
 }  // namespace
@@ -131,16 +133,23 @@ Patches make_patches(const Scene& scene, const PatchSettings& settings) {
     for (std::size_t s = 0; s < areas.size(); ++s)
         areas[s] = surface_area(scene, scene.surfaces[s]);
     double size = wanted_size(scene, settings, areas);
-    Patches patches = divide(scene, settings, areas, size);
-    // Whole cells and scraps make the count differ from the wanted one: draw nearer.
-    for (int again = 0; again < 3 && settings.count > 0 && settings.size <= 0; ++again) {
-        double ratio = static_cast<double>(patches.count()) / static_cast<double>(settings.count);
-        if (std::abs(ratio - 1) < 0.03)
+    Division division = divide(scene, settings, areas, size);
+    // Whole cells and scraps make the count differ from the wanted one: draw nearer. Of slivers a
+    // thousand times as long as a cell there may be far too many at first.
+    constexpr int usual = 3, most = 24;
+    for (int again = 0; again < most && settings.count > 0 && settings.size <= 0; ++again) {
+        const double ratio =
+            static_cast<double>(division.count) / static_cast<double>(settings.count);
+        if (std::abs(ratio - 1) < 0.03 || (again >= usual && ratio < 2))
             break;
         size *= std::sqrt(ratio);
-        patches = divide(scene, settings, areas, size);
+        division = divide(scene, settings, areas, size);
     }
-    return patches;
+    if (division.count > 0x7fffffffull)
+        throw Error(Fault::memory, scene.file.string() + ": cells of " + std::to_string(size) +
+                                       " m make more than 2^31 patches; choose a larger size");
+    set_patch_values(scene, areas, static_cast<std::size_t>(division.count), division.patches);
+    return std::move(division.patches);
 }
 
 std::vector<PatchPlace> patch_places(const Scene& scene, const Patches& patches) {

@@ -16,11 +16,13 @@ std::vector<std::int64_t> unshot_of(const Run& run, const TransferState& state) 
     for (std::size_t patch = 0; patch < patches.count(); ++patch)
         for (std::uint32_t band = 0; band < state.bands; ++band) {
             std::size_t k = patch * state.bands + band;
-            unshot[band] += scattered_quanta(patches, k,
-                                             [&](std::size_t at) {
-                                                 return run.banks.received(at / state.bands, band);
-                                             }) -
-                            state.sent[k];
+            const std::int64_t all = scattered_quanta(patches, k, [&](std::size_t at) {
+                return run.banks.received(at / state.bands, band);
+            });
+            // Modulo 2^64, as below.
+            unshot[band] = static_cast<std::int64_t>(static_cast<std::uint64_t>(unshot[band]) +
+                                                     static_cast<std::uint64_t>(all) -
+                                                     static_cast<std::uint64_t>(state.sent[k]));
         }
     return unshot;
 }
@@ -43,7 +45,9 @@ Balance balance_of(const Run& run, const DirectLight& direct, const TransferStat
         balance.absorbed.push_back(all(direct.absorbed[band], state.absorbed[band]));
         balance.escaped.push_back(all(direct.escaped[band], state.escaped[band]));
         // Power that the pass was to send but did not waits like all unshot energy.
-        balance.unshot.push_back(all(direct.unshot[band], unshot[band] - state.emitted[band]));
+        const auto waiting = static_cast<std::uint64_t>(unshot[band]) -
+                             static_cast<std::uint64_t>(state.emitted[band]);
+        balance.unshot.push_back(all(direct.unshot[band], static_cast<std::int64_t>(waiting)));
         balance.residual.push_back(
             static_cast<std::int64_t>(static_cast<std::uint64_t>(balance.emitted[band]) -
                                       static_cast<std::uint64_t>(balance.absorbed[band]) -

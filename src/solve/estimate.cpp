@@ -28,7 +28,10 @@ void add(const Balance& part, Balance& total) {
                         &Balance::residual}) {
         (total.*values).resize((part.*values).size(), 0);
         for (std::size_t band = 0; band < (part.*values).size(); ++band)
-            (total.*values)[band] += (part.*values)[band];
+            // Made-up checkpoints may have sums beyond all bounds, which wrap.
+            (total.*values)[band] =
+                static_cast<std::int64_t>(static_cast<std::uint64_t>((total.*values)[band]) +
+                                          static_cast<std::uint64_t>((part.*values)[band]));
     }
 }
 

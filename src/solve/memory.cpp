@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "lines/facets.h"
 #include "lines/periodic.h"
 #include "parallel.h"
 #include "parallux/error.h"
@@ -105,6 +106,7 @@ struct Footprint {
                count * (bands * 8 + lanes(bands) * 4) + keeping_bytes(count, bands) +
                (banks < threads ? Partition::bytes(threads) : 0) +
                projections * (scene.surfaces.size() * 8 + scene.positions.size() * 12) +
+               (projections ? facets_bytes(scene, patches, plan.spacing, projections) : 0) +
                (banks < threads ? 1 : threads) * copies_bytes(scene) +
                (settings.method == Method::matrix ? matrix_bytes(count) : 0);
     }

@@ -9,6 +9,7 @@
 #include "parallel.h"
 #include "random.h"
 #include "solve/shot_rays.h"
+#include "solve/sobol.h"
 #include "solve/visibility.h"
 
 namespace parallux {
@@ -49,6 +50,10 @@ ExactShot::ExactShot(const Scene& scene, const Patches& patches, const RayScene&
 }
 
 ExactShot::View ExactShot::view_of(std::size_t source) {
+    View view;
+    view.by_rays = covered_in_part(sources_[source].piece, sources_[source].polygon);
+    if (view.by_rays)
+        return view;
     std::vector<Chunk> chunks((cells().size() - 1) / cells_a_chunk + 1);
     parallel_for(threads_, chunks.size(), 1, [&](std::size_t begin, std::size_t end, unsigned) {
         DenormalsOff guard;
@@ -57,7 +62,6 @@ ExactShot::View ExactShot::view_of(std::size_t source) {
                  chunks[k]);
     });
     // Count first: arrays that grow take twice the memory.
-    View view;
     std::size_t cells_seen = 0, pairs = 0;
     for (const Chunk& chunk : chunks)
         cells_seen += chunk.seen.size(), pairs += chunk.pairs.size();
@@ -66,7 +70,8 @@ ExactShot::View ExactShot::view_of(std::size_t source) {
     for (Chunk& chunk : chunks) {
         view.seen.insert(view.seen.end(), chunk.seen.begin(), chunk.seen.end());
         for (Pair& pair : chunk.pairs) {
-            pair.first += static_cast<std::uint32_t>(blockers_.size());
+            if (!pair.by_rays())
+                pair.first += static_cast<std::uint32_t>(blockers_.size());
             view.pairs.push_back(pair);
         }
         blockers_.insert(blockers_.end(), chunk.blockers.begin(), chunk.blockers.end());
@@ -89,7 +94,7 @@ void ExactShot::look(std::size_t source, std::size_t begin, std::size_t end, Chu
     const double own_area = area(from.polygon);
     std::vector<std::uint32_t> candidates;
     const Emitter* surface = nullptr;
-    PointViews views(scene_, surfaces_);
+    PointViews views(scene_, rays_, surfaces_);
     for (std::size_t k = begin; k < end; ++k) {
         const Emitter& cell = cells()[k];
         const Polygon polygon = polygon_of(scene_, cell);
@@ -108,18 +113,23 @@ void ExactShot::look(std::size_t source, std::size_t begin, std::size_t end, Chu
                 if (shaft.holds(surfaces_[candidate]))
                     chunk.blockers.push_back(candidate);
             const auto count = static_cast<std::uint32_t>(chunk.blockers.size()) - first;
-            if (count == 0)
+            if (count == 0 && !covered_in_part(cell, polygon))
                 chunk.seen.push_back({static_cast<std::uint32_t>(k), factor});
             else
                 chunk.pairs.push_back(
                     {static_cast<std::uint32_t>(k),
-                     views.grid_for(cell, from.polygon, {&chunk.blockers[first], count}), first,
-                     count, factor});
+                     views.grid_for(cell, from.polygon, {chunk.blockers.data() + first, count}),
+                     first, count, factor});
             continue;
         }
         chunk.pairs.push_back(
-            {static_cast<std::uint32_t>(k), rays_for(scene_, rays_, from, cell), first, 0, factor});
+            {static_cast<std::uint32_t>(k), rays_for(scene_, rays_, from, cell), none, 0, factor});
     }
+}
+
+bool ExactShot::covered_in_part(const Emitter& side, const Polygon& part) const {
+    return rays_.covered_in_part(side.surface, emitter_normal(scene_, side),
+                                 {part.begin(), part.end()});
 }
 
 // Of the first so many.
@@ -153,21 +163,27 @@ double ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
         // Rounded as running sums, so that no quantum is lost or made.
         std::vector<std::int64_t> before(bands, 0);
         double up_to = 0;
-        auto receive = [&](std::uint32_t cell, double factor) {
+        auto receive = [&](std::uint32_t patch, double factor) {
             up_to += factor;
             if (up_to > 1 - 1e-12)
                 up_to = 1;
             for (std::uint32_t band = 0; band < bands; ++band) {
                 const std::int64_t quanta = std::llrint(up_to * from.power[band]);
-                run.banks.receive(0, cells()[cell].patch * std::size_t(bands) + band,
-                                  quanta - before[band]);
+                run.banks.receive(0, patch * std::size_t(bands) + band, quanta - before[band]);
                 before[band] = quanta;
             }
         };
         for (const Seen& seen : view.seen)
-            receive(seen.cell, seen.factor);
+            receive(cells()[seen.cell].patch, seen.factor);
         for (std::size_t k = 0; k < found.size(); ++k)
-            receive(view.pairs[k].cell, scale * found[k]);
+            receive(cells()[view.pairs[k].cell].patch, scale * found[k]);
+        if (view.by_rays) {
+            const std::vector<std::uint32_t> met =
+                met_by_rays(source, run.settings.seed, run.plan.shot_effort);
+            for (std::uint32_t patch : met)
+                if (patch != none)
+                    receive(patch, 1 / static_cast<double>(met.size()));
+        }
         for (std::uint32_t band = 0; band < bands; ++band) {
             const std::int64_t power = std::llrint(from.power[band]);
             emitted[band] += power;
@@ -176,6 +192,27 @@ double ExactShot::shoot(const Run& run, std::vector<std::int64_t>& emitted,
         going_on = go_on(static_cast<double>(++done) / static_cast<double>(views_.size()));
     }
     return power_share(done);
+}
+
+// The patches that rays of equal power from a source meet; none: nothing.
+std::vector<std::uint32_t> ExactShot::met_by_rays(std::size_t source, std::uint64_t seed,
+                                                  double effort) const {
+    constexpr double rays = 1 << 14;
+    const Emitter& from = sources_[source].piece;
+    const glm::dvec3 normal = emitter_normal(scene_, from);
+    std::vector<std::uint32_t> met(static_cast<std::size_t>(std::max(1.0, rays * effort * effort)));
+    const Sobol sobol(mix64(seed ^ stream::first_shot) + source);
+    parallel_for(threads_, met.size(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+        DenormalsOff guard;
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto p = sobol.point(static_cast<std::uint32_t>(k));
+            met[k] = patch_of(
+                scene_, patches_,
+                rays_.closest(point_on(scene_, from, p[0], p[1]),
+                              cosine_direction(normal, p[2], p[3]), INFINITY, from.surface));
+        }
+    });
+    return met;
 }
 
 // Of the pairs that may be hidden, as this shot finds them.
@@ -187,23 +224,24 @@ std::vector<double> ExactShot::factors_of(std::size_t source, std::uint64_t seed
     std::vector<double> factors(view.pairs.size());
     parallel_for(threads_, factors.size(), 64, [&](std::size_t begin, std::size_t end, unsigned) {
         DenormalsOff guard;
-        PointViews views(scene_, surfaces_);
+        PointViews views(scene_, rays_, surfaces_);
         for (std::size_t k = begin; k < end; ++k) {
             const Pair& pair = view.pairs[k];
             const Emitter& cell = cells()[pair.cell];
             // Where light changes little across the cell, a few points more are enough.
-            const double finer = surfaces_.empty()   ? std::max(1.0, effort * effort)
+            const double finer = pair.by_rays()      ? std::max(1.0, effort * effort)
                                  : pair.samples == 1 ? std::sqrt(effort)
                                                      : effort;
             const double samples = finer * pair.samples;
             const auto count = static_cast<std::uint32_t>(std::max(1.0, std::round(samples)));
             Random random = draws(seed, source, k);
-            if (surfaces_.empty())
+            if (pair.by_rays())
                 factors[k] = pair.factor * visible_share(scene_, rays_, from, cell, count, random);
             else
-                factors[k] = area(polygon_of(scene_, cell)) / own_area *
-                             views.mean(cell, from.polygon, {&blockers_[pair.first], pair.blockers},
-                                        count, random);
+                factors[k] =
+                    area(polygon_of(scene_, cell)) / own_area *
+                    views.mean(cell, from.polygon, {blockers_.data() + pair.first, pair.blockers},
+                               count, random);
         }
     });
     return factors;

@@ -17,7 +17,8 @@ namespace parallux {
 /// mean over random points, drawn anew for every shot, so that the spread of shots tells its error:
 /// in scenes of few surfaces, of the form factor from the point to what it sees of the source, in
 /// closed form; in others, the factor times the share of shadow rays between source and cell that
-/// arrive. Cells of one surface that emit alike are one source.
+/// arrive. Sources that other surfaces lie on send rays. Cells of one surface that emit alike are
+/// one source.
 class ExactShot {
 public:
     /// Up to so many surfaces, what is hidden is cut away in closed form.
@@ -50,8 +51,10 @@ private:
     struct Pair {
         std::uint32_t cell;
         std::uint32_t samples;          // a grid's side in points; or rays; with an effort of 1
-        std::uint32_t first, blockers;  // in blockers_
+        std::uint32_t first, blockers;  // in blockers_; first of rays: none
         double factor;                  // with nothing between; of rays
+
+        bool by_rays() const { return first == none; }
     };
     // A cell that all of a source arrives at which is sent there.
     struct Seen {
@@ -64,12 +67,17 @@ private:
         std::vector<Pair> pairs;
         double sum = 0;       // of what is seen
         bool closed = false;  // nothing escapes
+        // Something lies on the source: what a gap without depth exchanges has no form factor.
+        bool by_rays = false;
     };
     struct Chunk;
 
     const std::vector<Emitter>& cells() const { return *cells_; }
     View view_of(std::size_t source);
     void look(std::size_t source, std::size_t begin, std::size_t end, Chunk& chunk) const;
+    bool covered_in_part(const Emitter& side, const Polygon& part) const;
+    std::vector<std::uint32_t> met_by_rays(std::size_t source, std::uint64_t seed,
+                                           double effort) const;
     std::vector<double> factors_of(std::size_t source, std::uint64_t seed, double effort) const;
     bool sees_only_patches(const Source& source) const;
     double power_share(std::size_t sources) const;

@@ -6,6 +6,7 @@
 
 #include "parallel.h"
 #include "random.h"
+#include "solve/quanta_sink.h"
 #include "solve/sobol.h"
 
 namespace parallux {
@@ -81,8 +82,24 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
             last = {&emitter, emitter_normal(run.scene, emitter)};
         return last.normal;
     };
+    auto carried_by = [&](std::uint64_t ray, std::size_t piece) {
+        Quanta carried{};
+        for (std::uint32_t band = 0; band < bands; ++band)
+            carried[band] = quanta.each[piece * bands + band] +
+                            (static_cast<std::int64_t>(ray) < quanta.rest[band] ? 1 : 0);
+        return carried;
+    };
+    // Beside walks, counted where it was emitted in the totals' `sky`.
+    auto walk = [&](std::uint64_t ray, const Walk& start, const Quanta& carried, unsigned worker,
+                    const QuantaSink& sink) {
+        for (std::uint32_t band = 0; band < bands; ++band)
+            run.banks.totals(worker).sky[band] += carried[band];
+        Random random(key, stream::shot_walks + ray);
+        carry(start, carried, bands, random, sink);
+    };
     // `at`: the share of the power that lies before the place the ray leaves from.
-    auto shoot = [&](std::uint64_t ray, double at, unsigned worker, Last& last) {
+    auto shoot = [&](std::uint64_t ray, double at, unsigned worker, Last& last,
+                     const QuantaSink& sink) {
         std::array<double, Sobol::dimensions> p = sobol.point(static_cast<std::uint32_t>(ray));
         std::size_t piece = emitters.choose(at);
         const Emitter& emitter = emitters.pieces[piece];
@@ -90,15 +107,18 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
             run.scene.surfaces[emitter.surface].is_curved()
                 ? place_on(run.scene, emitter, p[0], p[1])
                 : EmitterPlace{point_on(run.scene, emitter, p[0], p[1]), normal_of(emitter, last)};
-        SurfaceHit hit =
-            run.rays->closest(place.point, cosine_direction(place.normal, p[2], p[3]),
-                              std::numeric_limits<double>::infinity(), emitter.surface);
+        const glm::dvec3 direction = cosine_direction(place.normal, p[2], p[3]);
+        if (run.walks)
+            return walk(ray, Walk(*run.walks, place.point, direction, emitter.surface),
+                        carried_by(ray, piece), worker, sink);
+        SurfaceHit hit = run.rays->closest(
+            place.point, direction, std::numeric_limits<double>::infinity(), emitter.surface);
         std::uint32_t patch = patch_of(run.scene, run.patches, hit);
         // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
         WorkerTotals& totals = run.banks.totals(worker);
+        const Quanta quanta_here = carried_by(ray, piece);
         for (std::uint32_t band = 0; band < bands; ++band) {
-            std::int64_t carried = quanta.each[piece * bands + band] +
-                                   (static_cast<std::int64_t>(ray) < quanta.rest[band] ? 1 : 0);
+            const std::int64_t carried = quanta_here[band];
             totals.sky[band] += carried;
             if (patch == none)
                 totals.escaped[band] += carried;
@@ -118,9 +138,10 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
                      [&](std::size_t begin, std::size_t end, unsigned worker) {
                          DenormalsOff guard;
                          Last last;
+                         const QuantaSink sink = bank_sink(run, worker);
                          for (std::size_t k = begin; k < end; ++k)
-                             shoot(done + k, (static_cast<double>(k) + offset) * step, worker,
-                                   last);
+                             shoot(done + k, (static_cast<double>(k) + offset) * step, worker, last,
+                                   sink);
                      });
         done += count;
         if (!go_on(static_cast<double>(done) / static_cast<double>(rays)))

@@ -43,18 +43,19 @@ std::string few_lines_warning(const Run& run, std::uint32_t first, std::size_t c
     return text;
 }
 
-// Whether another surface lies in the very place of a patch, as a sticker does. Of two in one place
-// a line meets either first, by its direction; rays from one of them would always see past the
-// other.
+// Whether another surface lies in the very place of a patch, or closer than lines can part them.
 bool is_covered(const Run& run, const PatchCells& cells, std::size_t k) {
     constexpr int places = 8;
+    std::vector<SurfaceHit> hits;
     const double near = 1e-5 * run.plan.sphere.radius;
     for (int place = 0; place < places; ++place) {
         const double a = (place + 0.5) / places, b = std::fmod(place * 0.375 + 0.0625, 1.0);
         const Emitter& cell = cells.choose(k, a);
         const auto [point, normal] = place_on(run.scene, cell, a, b);
         const glm::dvec3 up = near * normal;
-        if (run.rays->blocked(point - up, point + up, cell.surface))
+        run.rays->all(point - up, 2.0 * up, 1, hits);
+        if (std::any_of(hits.begin(), hits.end(),
+                        [&](const SurfaceHit& hit) { return hit.surface != cell.surface; }))
             return true;
     }
     return false;
@@ -84,8 +85,8 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
                                       PassResult& pass) {
     const Plan& plan = run.plan;
     const Patches& patches = run.patches;
-    // Local rays know nothing of a scene's copies.
-    if (!run.rays || plan.gathering == 0 || !pass.whole || is_periodic(run.scene))
+    // Local paths know nothing of a scene's copies, nor of mirrors.
+    if (!run.rays || run.walks || plan.gathering == 0 || !pass.whole || is_periodic(run.scene))
         return {};
     const double lines_a_bundle = pi * plan.sphere.radius * plan.sphere.radius / plan.cell;
     const auto most =

@@ -89,6 +89,14 @@ void PointViews::hide(std::span<const std::uint32_t> blockers) {
         blockers_.push_back(surfaces_[blocker]);
 }
 
+double PointViews::seen_from(const Emitter& cell, const glm::dvec3& normal, double a, double b,
+                             const Polygon& to) {
+    const glm::dvec3 point = point_on(scene_, cell, a, b);
+    if (rays_.covered(cell.surface, normal, point))
+        return 0;
+    return visible_form_factor(point, normal, to, blockers_, scratch_);
+}
+
 double PointViews::mean(const Emitter& cell, const Polygon& to,
                         std::span<const std::uint32_t> blockers, std::uint32_t k, Random& random) {
     hide(blockers);
@@ -98,8 +106,7 @@ double PointViews::mean(const Emitter& cell, const Polygon& to,
     for (std::uint32_t row = 0; row < k; ++row)
         for (std::uint32_t column = 0; column < k; ++column)
             for (auto [a, b] : {std::pair(x, y), std::pair(1 - x, 1 - y)})
-                sum += visible_form_factor(point_on(scene_, cell, (column + a) / k, (row + b) / k),
-                                           normal, to, blockers_, scratch_);
+                sum += seen_from(cell, normal, (column + a) / k, (row + b) / k, to);
     return sum / (2.0 * k * k);
 }
 
@@ -110,11 +117,10 @@ std::uint32_t PointViews::grid_for(const Emitter& cell, const Polygon& to,
     double least = INFINITY, most = 0, whole = 0;
     for (auto [a, b] :
          {std::pair(0.5, 0.5), {0.02, 0.02}, {0.98, 0.02}, {0.02, 0.98}, {0.98, 0.98}}) {
-        const glm::dvec3 point = point_on(scene_, cell, a, b);
-        const double seen = visible_form_factor(point, normal, to, blockers_, scratch_);
+        const double seen = seen_from(cell, normal, a, b, to);
         least = std::min(least, seen);
         most = std::max(most, seen);
-        whole = std::max(whole, point_form_factor(point, normal, to));
+        whole = std::max(whole, point_form_factor(point_on(scene_, cell, a, b), normal, to));
     }
     const double change = whole > 0 ? (most - least) / whole : 0;
     return change < 0.1 ? 1 : change < 0.4 ? 2 : 4;

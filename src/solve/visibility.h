@@ -24,8 +24,8 @@ double exchange_nearly(const Polygon& cell, const Polygon& source);
 /// Points' views of sources in scenes of few surfaces, in closed form. One a thread.
 class PointViews {
 public:
-    PointViews(const Scene& scene, const std::vector<Polygon>& surfaces)
-        : scene_(scene), surfaces_(surfaces) {}
+    PointViews(const Scene& scene, const RayScene& rays, const std::vector<Polygon>& surfaces)
+        : scene_(scene), rays_(rays), surfaces_(surfaces) {}
 
     /// Surfaces that may hide `to` from `from`, without these two. What turns its back on `from`
     /// is among them: it hides what is outside from patches within a solid.
@@ -44,7 +44,12 @@ public:
 private:
     void hide(std::span<const std::uint32_t> blockers);
 
+    // Of a cell's point, as it sees `to`; 0 where another surface lies on it.
+    double seen_from(const Emitter& cell, const glm::dvec3& normal, double a, double b,
+                     const Polygon& to);
+
     const Scene& scene_;
+    const RayScene& rays_;
     const std::vector<Polygon>& surfaces_;
     std::vector<Polygon> blockers_;
     VisibleScratch scratch_;

@@ -40,6 +40,9 @@ glm::dvec2 curve_place(const Curve& curve, double u0, double u1, double v0, doub
 std::vector<double> curve_cuts(const Curve& curve, bool along_u, std::uint32_t cells, double chord,
                                double bend);
 
+/// Whether it is a sphere of which nothing is left out.
+bool is_whole_sphere(const Curve& curve);
+
 /// A line's crossing of a curve.
 struct CurveRoot {
     double t, u, v;

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "lines/facets.h"
 #include "lines/periodic.h"
 #include "parallux/error.h"
 #include "view_factors/expected_lines.h"
@@ -39,6 +40,7 @@ FactorMemory::FactorMemory(const Scene& scene, const Patches& patches, std::size
             threads * (std::uint64_t(4) << 20) +
             scene.surfaces.size() * (sizeof(Surface) + sizeof(SurfaceGrid) + 64) +
             scene.positions.size() * (sizeof(glm::dvec3) + 12);
+    base_ += facets_bytes(scene, patches, 0, threads);
     base_ += ExpectedLines::bytes(patches.count()) + threads * nodes * 6 * 8;
     base_ += PairSweep::bundles_at_once(scene, threads) * copies_bytes(scene);
     base_ += patches.count() * (8 + patches.bands * 8 + 4 + sizeof(PatchPlace));

@@ -5,10 +5,12 @@
 # checkpoint renamed before it is written; checkpoints that are never written (no progress).
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
-# The share of a run that a checkpoint has done.
+# The share of a run that a checkpoint has done; all of it where nothing is left to tell of.
 done_in() {
-    "$program" solve "$scene" "${long[@]}" --resume "$1" --time-limit 0.001 --progress json 2>&1 |
-        sed -n 's/.*"done":\([0-9.e-]*\).*/\1/p' | head -1
+    local share
+    share=$("$program" solve "$scene" "${long[@]}" --resume "$1" --time-limit 0.001 --progress json 2>&1 |
+        sed -n 's/.*"done":\([0-9.e-]*\).*/\1/p' | head -1)
+    echo "${share:-1}"
 }
 
 # One run of some seconds, killed at 40 random moments, each time resumed from what the last one
