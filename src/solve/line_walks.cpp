@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "lines/tile_bounds.h"
 #include "solve/pass.h"
 #include "solve/quanta_sink.h"
@@ -154,6 +156,15 @@ void LineWalks::enter_scene(std::uint32_t patch, const glm::dvec3& base,
         carry(Walk(*run_.walks, base, direction), quanta, bands_, random_, sink_);
 }
 
+// Depths are of corners moved onto the lattice of lines: a walk begins on the surface itself, so
+// that what shares its place is met or left out as it is by lines.
+Walk LineWalks::leave(const End& from, const glm::dvec3& direction) const {
+    const Surface& surface = run_.scene.surfaces[from.surface];
+    const glm::dvec3 normal = surface_normal(run_.scene, surface);
+    const double above = glm::dot(from.point - run_.scene.positions[surface.corner[0]], normal);
+    return {*run_.walks, from.point - above * normal, direction, from.surface};
+}
+
 void LineWalks::send(const End& from, std::uint32_t to, const glm::dvec3& direction) {
     const Quanta quanta = quanta_of(from.patch);
     if (to == none) {
@@ -169,7 +180,7 @@ void LineWalks::send(const End& from, std::uint32_t to, const glm::dvec3& direct
             add(kept_->to, to);
         }
     } else {
-        const Walk walk(*run_.walks, from.point, direction, from.surface);
+        const Walk walk = leave(from, direction);
         // What mirrors or is glass all over has no power of others to send.
         if (!kept_ || share(from.patch) == 1)
             return carry(walk, quanta, bands_, random_, sink_);
@@ -213,7 +224,7 @@ void LineWalks::collect(const End& from, std::uint32_t to, const glm::dvec3& dir
         see(to, weights);
     } else {
         follow_sight(
-            Walk(*run_.walks, from.point, direction, from.surface), weights, bands_, random_,
+            leave(from, direction), weights, bands_, random_,
             [&](const Walk& walk, const Weights& at) { see(walk.patch(), at); },
             [&](const glm::dvec3& out, const Weights& at) {
                 if (sky_ <= 0)

@@ -34,6 +34,7 @@ private:
     void leave_scene(const End& from, const glm::dvec3& direction, const std::int64_t* sky);
     void enter_scene(std::uint32_t patch, const glm::dvec3& base, const glm::dvec3& direction,
                      const std::int64_t* sky);
+    Walk leave(const End& from, const glm::dvec3& direction) const;
     void send(const End& from, std::uint32_t to, const glm::dvec3& direction);
     void collect(const End& from, std::uint32_t to, const glm::dvec3& direction);
     void keep_walk(std::uint32_t from);
