@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "lines/ray_scene.h"
-#include "materials/walk.h"
 #include "output/interpolate.h"
+#include "output/reflections.h"
 #include "output/tone.h"
 #include "parallel.h"
 #include "parallux/error.h"
@@ -19,8 +18,6 @@ namespace parallux {
 namespace {
 
 constexpr double filter_radius = 0.75;  // of the tent over each pixel, in pixels
-// Off mirrors and through glass; off rough mirrors, which may meet a lamp or not.
-constexpr int walks_a_sample = 8, rough_walks_a_sample = 32;
 
 struct Ray {
     glm::dvec3 origin, direction;
@@ -86,7 +83,7 @@ public:
           settings_(settings),
           rays_(scene, settings.threads),
           field_(scene, patches, solution, rays_, settings.threads),
-          walks_(scene, patches, rays_),
+          reflections_(scene, patches, rays_),
           glare_(0.18 * std::exp2(settings.exposure) / usual_luminance(patches, solution)) {}
 
     // Fills one pixel of every layer.
@@ -133,45 +130,6 @@ private:
         return {};
     }
 
-    // Mirrors or is glass all over, and emits nothing.
-    bool is_dark(std::uint32_t patch) const {
-        const float* emission = &patches_.emission[std::size_t(patch) * patches_.bands];
-        return patches_.specular_share(patch) == 1 &&
-               std::all_of(emission, emission + patches_.bands, [](float e) { return e == 0; });
-    }
-
-    // What mirrors and glass show, beside what their diffuse part sends: sight is followed as walks
-    // of light are.
-    void add_shown(const Ray& ray, const SurfaceHit& hit, Random& random,
-                   Spectrum& radiance) const {
-        // Past backs that are seen through.
-        const glm::dvec3 before =
-            surface_point(scene_, scene_.surfaces[hit.surface], hit.u, hit.v) -
-            1e-3 * double(hit.t) * ray.direction;
-        const std::uint32_t bands = solution_.bands;
-        const int walks = walks_.rough(scene_.surfaces[hit.surface].material) ? rough_walks_a_sample
-                                                                              : walks_a_sample;
-        Weights weights;
-        weights.fill(1.0 / walks);
-        bool first = true;
-        auto visit = [&](const Walk& walk, const Weights& at) {
-            if (std::exchange(first, false) || is_dark(walk.patch()))
-                return;
-            const Spectrum seen = of_patches(walk.hit(), walk.patch()).radiance;
-            for (std::uint32_t b = 0; b < bands; ++b)
-                radiance[b] += static_cast<float>(at[b] * seen[b]);
-        };
-        auto sky = [&](const glm::dvec3& direction, const Weights& at) {
-            if (scene_.sky.kind == Sky::Kind::dark)
-                return;
-            const Spectrum seen = scene_.sky.radiance(direction);
-            for (std::uint32_t b = 0; b < bands; ++b)
-                radiance[b] += static_cast<float>(at[b] * seen[b]);
-        };
-        for (int k = 0; k < walks; ++k, first = true)
-            follow_sight(Walk(walks_, before, ray.direction), weights, bands, random, visit, sky);
-    }
-
     Sight look(const Ray& ray, Random& random) const {
         Sight sight;
         SurfaceHit hit = meet(ray);
@@ -185,7 +143,12 @@ private:
         sight = of_patches(hit, (hit.back ? grid.back : grid.front) +
                                     cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v));
         if (patches_.specular_share(sight.patch) > 0)
-            add_shown(ray, hit, random, sight.radiance);
+            reflections_.add(
+                ray.direction, hit,
+                [&](const SurfaceHit& seen, std::uint32_t patch) {
+                    return of_patches(seen, patch).radiance;
+                },
+                random, sight.radiance);
         return sight;
     }
 
@@ -255,7 +218,7 @@ private:
     const PictureSettings& settings_;
     RayScene rays_;
     Interpolation field_;
-    Walks walks_;
+    Reflections reflections_;
     double glare_;
 };
 

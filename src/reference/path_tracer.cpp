@@ -10,6 +10,7 @@
 #include "lines/ray_scene.h"
 #include "parallel.h"
 #include "random.h"
+#include "reference/evaluated_roughness.h"
 #include "solve/emitters.h"
 
 // J. T. Kajiya, The Rendering Equation, 1986.
@@ -32,63 +33,6 @@ dvec3 over_hemisphere(const dvec3& normal, Random& random) {
     return length > 1e-9 ? sum / length : normal;
 }
 
-// GGX with α, of a mirror that reflects all, times π: f cos θ over the density of
-// over_hemisphere(); and what Kulla and Conty give back, from sums over the hemisphere.
-class Rough {
-public:
-    explicit Rough(double alpha) : square_(alpha * alpha) {
-        for (int k = 0; k <= steps; ++k)
-            kept_[k] = albedo(std::max(0.5, double(k)) / steps);
-        for (int k = 0; k < 1000; ++k)
-            mean_ += 2 * (k + 0.5) / 1e6 * kept((k + 0.5) / 1000);
-    }
-    double facets(const dvec3& n, const dvec3& a, const dvec3& b) const {
-        const dvec3 half = glm::normalize(a + b);
-        const double nh = dot(n, half), na = dot(n, a), nb = dot(n, b);
-        const double bottom = nh * nh * (square_ - 1) + 1;
-        const double facing = square_ / (pi * bottom * bottom);
-        const double seen = nb * std::sqrt(square_ + (1 - square_) * na * na) +
-                            na * std::sqrt(square_ + (1 - square_) * nb * nb);
-        return pi * facing * 0.5 / seen;
-    }
-    double between(double na, double nb) const {
-        return (1 - kept(na)) * (1 - kept(nb)) / (1 - mean_);
-    }
-
-private:
-    static constexpr int steps = 50;
-    double kept(double cosine) const {
-        const double at = std::min(cosine * steps, steps - 1e-9);
-        const int k = static_cast<int>(at);
-        return kept_[k] + (at - k) * (kept_[k + 1] - kept_[k]);
-    }
-    // ∫ f cos θ, in the half vector's own angles, where it is smooth.
-    double albedo(double cosine) const {
-        const dvec3 a(std::sqrt(1 - cosine * cosine), 0, cosine), n(0, 0, 1);
-        constexpr int across = 400, about = 100;
-        double sum = 0;
-        for (int i = 0; i < across; ++i)
-            for (int j = 0; j < about; ++j) {
-                // tan² θ = α² u / (1 - u) has the density of facets.
-                const double u = (i + 0.5) / across, angle = 2 * pi * (j + 0.5) / about;
-                const double z = std::sqrt((1 - u) / (1 + (square_ - 1) * u));
-                const double r = std::sqrt(std::max(0.0, 1 - z * z));
-                const dvec3 half(r * std::cos(angle), r * std::sin(angle), z);
-                const double ah = dot(a, half);
-                const dvec3 b = 2 * ah * half - a;
-                if (ah <= 0 || b.z <= 0)
-                    continue;
-                const double bottom = z * z * (square_ - 1) + 1;
-                const double facing = square_ / (pi * bottom * bottom);
-                sum += facets(n, a, b) / pi * b.z * 4 * ah / (facing * z);
-            }
-        return sum / (across * about);
-    }
-
-    double square_, mean_ = 0;
-    double kept_[steps + 1];
-};
-
 class Tracer {
 public:
     Tracer(const Scene& scene, const Patches& patches, unsigned threads)
@@ -96,7 +40,7 @@ public:
         for (const Material& material : scene.materials) {
             const double r = material.specular.roughness;
             rough_.push_back(r > 0 && material.specular.kind == Specular::Kind::mirror
-                                 ? std::make_unique<Rough>(r * r)
+                                 ? std::make_unique<EvaluatedRoughness>(r * r)
                                  : nullptr);
         }
     }
@@ -158,20 +102,27 @@ public:
                 if (body)
                     within = inside ? &material : nullptr;
             }
-            double most = *std::max_element(weight.begin(), weight.begin() + scene_.bands);
-            if (most <= 0)
+            if (!survives(weight, random))
                 return seen;
-            if (most < 0.25) {
-                if (random.uniform() >= most)
-                    return seen;
-                for (double& w : weight)
-                    w /= most;
-            }
         }
         return seen;
     }
 
 private:
+    // Russian roulette, once little is left.
+    bool survives(Bands& weight, Random& random) const {
+        const double most = *std::max_element(weight.begin(), weight.begin() + scene_.bands);
+        if (most <= 0)
+            return false;
+        if (most >= 0.25)
+            return true;
+        if (random.uniform() >= most)
+            return false;
+        for (double& w : weight)
+            w /= most;
+        return true;
+    }
+
     void add_sky(const dvec3& direction, const Bands& weight, Bands& seen) const {
         const Spectrum sky = scene_.sky.radiance(direction);
         for (std::uint32_t b = 0; b < scene_.bands; ++b)
@@ -207,7 +158,7 @@ private:
         const dvec3 back = -direction;
         double facets = 1, between = 0, cosine = dot(normal, back);
         if (shine.roughness > 0) {
-            const Rough& rough = *rough_[scene_.surfaces[hit.surface].material];
+            const EvaluatedRoughness& rough = *rough_[scene_.surfaces[hit.surface].material];
             direction = over_hemisphere(normal, random);
             facets = rough.facets(normal, back, direction);
             between = rough.between(dot(normal, back), dot(normal, direction));
@@ -263,7 +214,7 @@ private:
     const Patches& patches_;
     PatchCells cells_;
     RayScene rays_;
-    std::vector<std::unique_ptr<Rough>> rough_;  // a material
+    std::vector<std::unique_ptr<EvaluatedRoughness>> rough_;  // a material
 };
 
 // Mean and error of paths in slabs, the same on any number of threads.

@@ -149,7 +149,7 @@ void GltfMaterials::read_glass(const JsonView& json, Material& material) {
             colour->fail("must have three numbers");
         for (std::size_t c = 0; colour && c < 3; ++c)
             s.absorption[c] = static_cast<float>(
-                -std::log(std::max(1e-30, colour->at(c).number(0, 1))) / distance);
+                std::min(1e15, -std::log(std::max(1e-30, colour->at(c).number(0, 1))) / distance));
     }
     // Light meets it from both sides, whatever the file says of seeing it from behind.
     material.two_sided = true;

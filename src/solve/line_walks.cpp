@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "lines/tile_bounds.h"
 #include "solve/pass.h"
 #include "solve/quanta_sink.h"
@@ -106,13 +108,6 @@ void LineWalks::follow_line(const Hit* hits, std::size_t count, const glm::dvec3
     }
 }
 
-// Lines meet the facets of curved surfaces, or them themselves to a float's digits; walks leave from
-// their true places.
-glm::dvec3 LineWalks::point_of(const End& from, const glm::dvec3& direction) const {
-    const bool by_front = from.patch < run_.patches.grids[from.surface].back;
-    return run_.rays->on_line(from.surface, by_front, from.point, direction, 0.05 * radius_);
-}
-
 void LineWalks::exchange(const End& from, const End& to, const glm::dvec3& direction) {
     for (const bool back : {false, true}) {
         const End &a = back ? to : from, &b = back ? from : to;
@@ -161,6 +156,23 @@ void LineWalks::enter_scene(std::uint32_t patch, const glm::dvec3& base,
         carry(Walk(*run_.walks, base, direction), quanta, bands_, random_, sink_);
 }
 
+// Depths are of corners moved onto the lattice of lines, or of a curved surface's facets: a walk
+// begins on the surface itself, so that it and what shares its place are met or left out as they are
+// by lines.
+Walk LineWalks::leave(const End& from, const glm::dvec3& direction) const {
+    const Surface& surface = run_.scene.surfaces[from.surface];
+    if (surface.is_curved()) {
+        constexpr double reach = 0.05;  // of the scene's radius: facets are much nearer
+        const bool by_front = from.patch < run_.patches.grids[from.surface].back;
+        const glm::dvec3 point = run_.rays->on_line(from.surface, by_front, from.point, direction,
+                                                    reach * radius_);
+        return {*run_.walks, point, direction, from.surface};
+    }
+    const glm::dvec3 normal = surface_normal(run_.scene, surface);
+    const double above = glm::dot(from.point - run_.scene.positions[surface.corner[0]], normal);
+    return {*run_.walks, from.point - above * normal, direction, from.surface};
+}
+
 void LineWalks::send(const End& from, std::uint32_t to, const glm::dvec3& direction) {
     const Quanta quanta = quanta_of(from.patch);
     if (to == none) {
@@ -176,7 +188,7 @@ void LineWalks::send(const End& from, std::uint32_t to, const glm::dvec3& direct
             add(kept_->to, to);
         }
     } else {
-        const Walk walk(*run_.walks, point_of(from, direction), direction, from.surface);
+        const Walk walk = leave(from, direction);
         // What mirrors or is glass all over has no power of others to send.
         if (!kept_ || share(from.patch) == 1)
             return carry(walk, quanta, bands_, random_, sink_);
@@ -220,8 +232,7 @@ void LineWalks::collect(const End& from, std::uint32_t to, const glm::dvec3& dir
         see(to, weights);
     } else {
         follow_sight(
-            Walk(*run_.walks, point_of(from, direction), direction, from.surface), weights,
-            bands_, random_,
+            leave(from, direction), weights, bands_, random_,
             [&](const Walk& walk, const Weights& at) { see(walk.patch(), at); },
             [&](const glm::dvec3& out, const Weights& at) {
                 if (sky_ <= 0)

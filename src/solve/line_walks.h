@@ -30,11 +30,11 @@ private:
         glm::dvec3 point;
     };
     void follow_line(const Hit* hits, std::size_t count, const glm::dvec3& base);
-    glm::dvec3 point_of(const End& from, const glm::dvec3& direction) const;
     void exchange(const End& from, const End& to, const glm::dvec3& direction);
     void leave_scene(const End& from, const glm::dvec3& direction, const std::int64_t* sky);
     void enter_scene(std::uint32_t patch, const glm::dvec3& base, const glm::dvec3& direction,
                      const std::int64_t* sky);
+    Walk leave(const End& from, const glm::dvec3& direction) const;
     void send(const End& from, std::uint32_t to, const glm::dvec3& direction);
     void collect(const End& from, std::uint32_t to, const glm::dvec3& direction);
     void keep_walk(std::uint32_t from);
