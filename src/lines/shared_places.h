@@ -15,7 +15,8 @@ namespace parallux {
 /// sticker. Which of them a ray meets first must not be chance, and must be what a bundle's line
 /// meets (TieOrder): by place_rank(), the one met from behind before others but for the faces of
 /// sheets; else the nearer plane; else, with the first of the scene in front of others that look
-/// the same way. A ray of the other direction meets them the other way round. Immutable.
+/// the same way. A ray of the other direction meets them the other way round. Curved surfaces are
+/// left out, disks too: none is taken to share a place. Immutable.
 class SharedPlaces {
 public:
     /// O(n log n) for n surfaces of which few lie in one plane and over each other along its

@@ -109,6 +109,16 @@ Scene stone_in_glass() {
     return scene;
 }
 
+// Spheres themselves: of glass that absorbs, of brass that mirrors in part, of plaster.
+Scene spheres() {
+    Scene scene = painted_room();
+    add_sphere(scene, {0.3, 0.3, 0.22}, 0.2, glass(1.5, 1), 3, 5);
+    Material brass = mirror(0.8, 0, 0.7, 0.4);
+    add_sphere(scene, {0.7, 0.6, 0.25}, 0.2, brass, 3, 4);
+    add_sphere(scene, {0.5, 0.8, 0.7}, 0.15, grey(0.5), 2, 3);
+    return scene;
+}
+
 void judge(const Scene& scene, const SolveSettings& settings, std::uint64_t paths) {
     const Patches patches = make_patches(scene);
     constexpr int seeds = 64;
@@ -172,6 +182,9 @@ TEST_CASE("judged by paths: balls of glass and metal under a leaf") {
 }
 TEST_CASE("judged by paths: a stone in glass") {
     judge(stone_in_glass(), bundles(256), 100'000);
+}
+TEST_CASE("judged by paths: spheres of glass, brass and plaster") {
+    judge(spheres(), bundles(256), 100'000);
 }
 // The same without first shots: emission goes along the lines.
 TEST_CASE("judged by paths: without first shots") {

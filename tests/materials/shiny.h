@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "parallux/solve.h"
 #include "support/hand_made.h"
 
@@ -46,6 +48,35 @@ inline void add_plate(Scene& scene, const glm::dvec3& origin, const glm::dvec3& 
     scene.materials.push_back(material);
     if (scene.objects.empty())
         scene.objects.push_back("plates");
+}
+
+/// Adds a whole sphere, itself and not facets, with nu × nv cells.
+inline void add_sphere(Scene& scene, const glm::dvec3& centre, double radius,
+                       const Material& material, std::uint16_t nu, std::uint16_t nv,
+                       bool inward = false) {
+    Curve curve;
+    curve.profile = Curve::Profile::arc;
+    curve.point[0] = {0, 0, 0};
+    curve.point[1] = {1, 0, 0};
+    curve.point[2] = {0, 1, 0};
+    curve.origin = centre;
+    curve.radius = radius;
+    curve.start = -pi / 2;
+    curve.end = pi / 2;
+    if (!inward)
+        std::swap(curve.low.y, curve.high.y);
+    Surface surface;
+    surface.corner.fill(static_cast<std::uint32_t>(scene.positions.size()));
+    surface.curve = static_cast<std::uint32_t>(scene.curves.size());
+    surface.material = static_cast<std::uint32_t>(scene.materials.size());
+    surface.grid_u = nu;
+    surface.grid_v = nv;
+    scene.positions.push_back(centre - radius * glm::dvec3(0, 0, 1));
+    scene.curves.push_back(curve);
+    scene.surfaces.push_back(surface);
+    scene.materials.push_back(material);
+    if (scene.objects.empty())
+        scene.objects.push_back("spheres");
 }
 
 /// Adds an upright box of one material, faces outward, n × n cells a face.

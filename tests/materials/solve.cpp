@@ -76,6 +76,42 @@ TEST_CASE("a furnace with mirrors and glass stays a furnace") {
     }
 }
 
+TEST_CASE("a furnace in a sphere, with spheres that mirror and of glass, stays a furnace") {
+    // Walls, mirrors and glass see themselves. Fails when a walk leaves out all of the surface that
+    // it leaves (planted: `near` beyond the sphere), or takes a curved surface's one normal for all.
+    Scene scene;
+    scene.bands = 1;
+    add_sphere(scene, {0, 0, 0}, 1, grey(0.5, 1), 4, 6, true);
+    add_sphere(scene, {0.3, 0.2, 0.1}, 0.4, glass(1.5), 3, 4);
+    add_sphere(scene, {-0.4, -0.3, 0}, 0.3, emitting(mirror(0.75), 0.5), 3, 4);
+    add_sphere(scene, {0.1, -0.5, 0.5}, 0.2,
+               emitting(mirror(0.75, 0, 0.5, 0.5), 2 * (1 - 0.5 * 0.75 - 0.5 * 0.5)), 2, 4);
+    const Patches patches = make_patches(scene);
+    for (FirstShot shot : {FirstShot::off, FirstShot::rays}) {
+        CAPTURE(int(shot));
+        SolveSettings settings;
+        settings.bundles = 256;
+        settings.first_shot = shot;
+        const Solution one = solve(scene, patches, settings);
+        CHECK(one.energy.residual[0] == 0);
+        CHECK(one.energy.escaped[0] <= one.energy.emitted[0] / 10'000);
+        const std::vector<Sample> samples = over_seeds(scene, patches, settings, 16);
+        double worst = 0, sum = 0;
+        int count = 0;
+        for (std::size_t k = 0; k < samples.size(); ++k) {
+            const double diffuse = 1 - patches.specular_share(k);
+            if (diffuse == 0)
+                continue;
+            const double expected = patches.emission[k] + diffuse * 2 * patches.reflectance[k];
+            worst = std::max(worst, std::fabs(samples[k].z(expected)));
+            sum += samples[k].mean() / expected;
+            ++count;
+        }
+        CHECK(worst < sidak_bound(static_cast<std::size_t>(count), 16));
+        CHECK(sum / count == doctest::Approx(1).epsilon(0.002));
+    }
+}
+
 TEST_CASE("with mirrors and glass the balance closes and threads change no bit") {
     const Scene scene = garden();
     const Patches patches = make_patches(scene);
@@ -234,7 +270,12 @@ TEST_CASE("a lens brings a caustic where geometry says") {
     Scene scene;
     scene.bands = 1;
     add_plate(scene, {-3 * half, -3 * half, 0}, {6 * half, 0, 0}, {0, 6 * half, 0}, grey(0), 3);
-    add_ball(scene, {0, 0, below}, radius, 96, glass(n));
+    SUBCASE("of facets") {
+        add_ball(scene, {0, 0, below}, radius, 96, glass(n));
+    }
+    SUBCASE("itself") {
+        add_sphere(scene, {0, 0, below}, radius, glass(n), 8, 12);
+    }
     Light sun;
     sun.kind = Light::Kind::directional;
     sun.direction = {0, 0, -1};
