@@ -54,8 +54,12 @@ Scene box() {
     Scene scene = empty_scene();
     for (int k = 0; k < 8; ++k)
         scene.positions.emplace_back(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    for (const auto& face : {std::array<std::uint32_t, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                             {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    for (const auto& face : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
+                             {4, 5, 7, 6},
+                             {0, 1, 5, 4},
+                             {2, 6, 7, 3},
+                             {0, 4, 6, 2},
+                             {1, 3, 7, 5}}) {
         Surface surface;
         surface.corner = face;
         surface.grid_u = surface.grid_v = 5;
@@ -90,7 +94,8 @@ int main(int count, char** arguments) {
             break;
         BundleSettings settings;
         settings.spacing = spacing;
-        settings.count = static_cast<std::uint64_t>(std::max(4.0, (tiny ? 0.1 : 20) * spacing * 1e3));
+        settings.count =
+            static_cast<std::uint64_t>(std::max(4.0, (tiny ? 0.1 : 20) * spacing * 1e3));
         const Facets cut =
             make_facets(round, round_patches, facet_chord(round, spacing), Spheres::facets);
         const Projector of_box(flat, flat_patches), whole(round, round_patches),

@@ -108,7 +108,7 @@ struct Projection {
         std::int32_t x, y;  ///< fixed point, 1 / fixed_one of a spacing
         float depth;        ///< in radii of the scene from its centre
     };
-    std::vector<Corner> corners;            ///< one a position of the scene
+    std::vector<Corner> corners;  ///< one a position of the scene
     /// A whole sphere: x, y and radius in spacings, not snapped; depth in radii of the scene, as
     /// much more a spacing; the bundle's axes as the sphere's own frame has them.
     struct Ball {
@@ -154,9 +154,9 @@ public:
     /// Keeps references to both: they must outlive the projector. Whole spheres are met where they
     /// are, to a float's digits, and in the right cells. Other curved surfaces are cut into flat
     /// triangles once, for bundles of about the spacing that is given here (0: a thousandth of the
-    /// scene's radius): their hits lie within an eighth of it of where they should, and in the right
-    /// cells but for that; outlines and areas are less by 5·10⁻⁴ at most. That they are met an even
-    /// number of times holds as exactly as for planar ones.
+    /// scene's radius): their hits lie within an eighth of it of where they should, and in the
+    /// right cells but for that; outlines and areas are less by 5·10⁻⁴ at most. That they are met
+    /// an even number of times holds as exactly as for planar ones.
     Projector(const Scene& scene, const Patches& patches, Surfaces surfaces = Surfaces::any,
               double spacing = 0);
 
@@ -193,7 +193,7 @@ private:
                     std::size_t begin, Workspace& workspace) const;
 
     std::shared_ptr<const Facets> facets_;  // null: there are no curved surfaces
-    const Scene& scene_;                     // whose surfaces are projected
+    const Scene& scene_;                    // whose surfaces are projected
     const Patches& patches_;
     glm::dvec3 centre_{0};
     double radius_ = 0;

@@ -9,9 +9,9 @@
 #include "lines/tile_bounds.h"
 #include "parallux/lines.h"
 
-// Whole spheres in a bundle. Seen along lines a sphere is a disc, and its halves have the same lines
-// by the same arithmetic: whatever that rounds, every line meets both or none. Depths and places are
-// the roots of its equation, for many lines at once in ball_hits-inl.h.
+// Whole spheres in a bundle. Seen along lines a sphere is a disc, and its halves have the same
+// lines by the same arithmetic: whatever that rounds, every line meets both or none. Depths and
+// places are the roots of its equation, for many lines at once in ball_hits-inl.h.
 
 namespace parallux {
 

@@ -90,23 +90,29 @@ private:
     void cut(std::uint32_t s, Welder& welder) {
         const Curve& curve = scene_.curves[scene_.surfaces[s].curve];
         const SurfaceGrid& grid = patches_.grids[s];
-        Cut cut{s, curve_cuts(curve, true, grid.nu, chord_, bend),
-                curve_cuts(curve, false, grid.nv, chord_, bend), {}, 0, 0};
+        Cut cut{s,
+                curve_cuts(curve, true, grid.nu, chord_, bend),
+                curve_cuts(curve, false, grid.nv, chord_, bend),
+                {},
+                0,
+                0};
         while (twisted(curve, cut)) {
             halve(cut.u);
             halve(cut.v);
         }
         count_ += 2 * cut.u.size() * cut.v.size();
         if (count_ > std::size_t(1) << 28)
-            throw Error(Fault::memory, "curved surfaces would be cut into more than 2^28 "
-                                       "triangles; choose a larger --line-spacing");
+            throw Error(Fault::memory,
+                        "curved surfaces would be cut into more than 2^28 "
+                        "triangles; choose a larger --line-spacing");
         for (std::size_t j = 0; j < cut.v.size(); ++j)
             for (std::size_t i = 0; i < cut.u.size(); ++i) {
                 const glm::dvec3 p = curve_at(curve, cut.u[i], cut.v[j]).at;
                 if (i == 0 || j == 0 || i + 1 == cut.u.size() || j + 1 == cut.v.size()) {
                     cut.corner.push_back(welder.weld(p));
                 } else {
-                    cut.corner.push_back(static_cast<std::uint32_t>(facets_.scene.positions.size()));
+                    cut.corner.push_back(
+                        static_cast<std::uint32_t>(facets_.scene.positions.size()));
                     facets_.scene.positions.push_back(p);
                 }
             }
@@ -166,8 +172,8 @@ private:
             if (surface.is_curved())
                 continue;
             const bool triangle = surface.shape() == Shape::triangle;
-            const glm::dvec2 uv[4] = {{0, 0}, {1, 0}, triangle ? glm::dvec2(0, 1) : glm::dvec2(1),
-                                      {0, 1}};
+            const glm::dvec2 uv[4] = {
+                {0, 0}, {1, 0}, triangle ? glm::dvec2(0, 1) : glm::dvec2(1), {0, 1}};
             const unsigned corners = triangle ? 3 : 4;
             for (unsigned k = 0; k < corners; ++k)
                 add_rim(s, surface.corner[k], surface.corner[(k + 1) % corners], uv[k],

@@ -30,8 +30,8 @@ struct Facets {
 Facets make_facets(const Scene& scene, const Patches& patches, double chord,
                    Spheres spheres = Spheres::halves);
 
-/// How far chords may lie from curved surfaces, for bundles of about such a spacing (0: a thousandth
-/// of the scene's radius).
+/// How far chords may lie from curved surfaces, for bundles of about such a spacing (0: a
+/// thousandth of the scene's radius).
 double facet_chord(const Scene& scene, double spacing);
 
 /// Bytes of make_facets()'s result, and of so many projections of it. O(cuts).

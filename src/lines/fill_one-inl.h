@@ -245,12 +245,12 @@ private:
         const Projection::Ball& ball = *own.ball;
         const auto middle =
             hn::Set(d, static_cast<float>((ball.depth + key_depth_zero) * key_depth_one));
-        const auto per_spacing = hn::Set(
-            d, static_cast<float>((own.far ? 1 : -1) * ball.per_spacing * key_depth_one));
+        const auto per_spacing =
+            hn::Set(d, static_cast<float>((own.far ? 1 : -1) * ball.per_spacing * key_depth_one));
         fill_ball(ball, tile.bounds, [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
             const BallRow lines = row_of(ball, row);
-            const std::int32_t line = (row - tile.bounds.top) * HitLayers::side +
-                                      (begin - tile.bounds.left);
+            const std::int32_t line =
+                (row - tile.bounds.top) * HitLayers::side + (begin - tile.bounds.left);
             fill_run(line, end - begin, id_of(view, grid), false, layers, [&](std::int32_t k) {
                 const auto x = hn::ConvertTo(d, hn::Add(hn::Iota(i, 0), hn::Set(i, k)));
                 VF aside;

@@ -77,9 +77,8 @@ HWY_INLINE hn::Vec<D> ball_half(D d, const BallRow& row, hn::Vec<D> x, std::int3
                                 hn::Vec<D>& aside) {
     const hn::Vec<D> left = hn::Add(hn::Add(x, hn::Set(d, static_cast<float>(column - row.begin))),
                                     hn::Set(d, row.before));
-    const hn::Vec<D> right =
-        hn::Add(hn::Sub(hn::Set(d, static_cast<float>(row.end - 1 - column)), x),
-                hn::Set(d, row.beyond));
+    const hn::Vec<D> right = hn::Add(
+        hn::Sub(hn::Set(d, static_cast<float>(row.end - 1 - column)), x), hn::Set(d, row.beyond));
     aside = hn::Mul(hn::Set(d, 0.5f), hn::Sub(left, right));
     return hn::Sqrt(hn::Max(hn::Mul(left, right), hn::Zero(d)));
 }
@@ -108,8 +107,8 @@ HWY_NOINLINE Hits<D> ball_hits(D d, const SurfaceView& view, hn::Vec<D> x, float
     const hn::Vec<D> px = own(0), py = own(1), pz = own(2);
     const hn::Vec<D> zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const hn::Vec<D> from_axis = hn::Sqrt(hn::Add(hn::Mul(px, px), hn::Mul(py, py)));
-    const hn::Vec<D> u = hn::Add(hn::Mul(angle_of(d, pz, from_axis), hn::Set(d, 0.318309886f)),
-                                 hn::Set(d, 0.5f));
+    const hn::Vec<D> u =
+        hn::Add(hn::Mul(angle_of(d, pz, from_axis), hn::Set(d, 0.318309886f)), hn::Set(d, 0.5f));
     hn::Vec<D> v = hn::Mul(angle_of(d, py, px), hn::Set(d, 0.159154943f));
     v = hn::IfThenElse(hn::Lt(v, zero), hn::Add(v, one), v);
     if (ball.turned)

@@ -27,8 +27,7 @@ glm::dvec3 nearest_point(const Scene& scene, const Surface& surface, const glm::
         const glm::dvec3 from = corner(k), edge = corner(k + 1) - from, way = to - from;
         above = above && glm::dot(glm::cross(normal, edge), way) >= 0;
         const double length = glm::dot(edge, edge);
-        const double along =
-            length > 0 ? std::clamp(glm::dot(way, edge) / length, 0.0, 1.0) : 0.0;
+        const double along = length > 0 ? std::clamp(glm::dot(way, edge) / length, 0.0, 1.0) : 0.0;
         const glm::dvec3 here = from + along * edge;
         if (glm::distance(here, to) < glm::distance(nearest, to))
             nearest = here;
@@ -76,8 +75,8 @@ PlaneSides::Beside PlaneSides::beside(const Scene& scene, const Surface& ball,
     }
     bool within = true;
     for (std::uint32_t corner : other.corner)
-        within = within &&
-                 (corner == none || glm::distance(scene.positions[corner], centre) <= radius);
+        within =
+            within && (corner == none || glm::distance(scene.positions[corner], centre) <= radius);
     const glm::dvec3 way = nearest_point(scene, other, centre) - centre;
     const double distance = glm::length(way);
     return {distance >= radius ? way / distance : glm::dvec3(0), within};

@@ -10,8 +10,8 @@
 namespace parallux {
 
 /// On which side of each surface's plane every other surface lies: the same for all directions, so
-/// that a bundle's depth order follows from signs alone. Halves of spheres are parted from others by
-/// planes that touch the sphere. n² bytes; for scenes of few surfaces.
+/// that a bundle's depth order follows from signs alone. Halves of spheres are parted from others
+/// by planes that touch the sphere. n² bytes; for scenes of few surfaces.
 class PlaneSides {
 public:
     static constexpr std::size_t most_surfaces = 256;

@@ -65,7 +65,8 @@ void RayCurves::bounds(const RTCBoundsFunctionArguments* arguments) {
     const Bounds box =
         curve_bounds(curve, piece.u0, piece.u1, piece.v0, piece.v1, is_quadric(curve) ? 32 : 6);
     // Room for what rays lose as floats.
-    const double room = 1e-5 * (glm::length(box.high - box.low) + glm::length(box.high - own.centre_));
+    const double room =
+        1e-5 * (glm::length(box.high - box.low) + glm::length(box.high - own.centre_));
     const glm::vec3 low(box.low - own.centre_ - room), high(box.high - own.centre_ + room);
     *arguments->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
 }

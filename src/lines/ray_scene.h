@@ -45,8 +45,8 @@ public:
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// The nearest crossing with t in (0, far], surface `skip`, which the ray leaves, left out (of a
-    /// curved one, which may see itself, only the place that it leaves); t = 0 on what lies close
+    /// The nearest crossing with t in (0, far], surface `skip`, which the ray leaves, left out (of
+    /// a curved one, which may see itself, only the place that it leaves); t = 0 on what lies close
     /// before that; .surface == none: nothing.
     SurfaceHit closest(const glm::dvec3& origin, const glm::dvec3& direction, double far,
                        std::uint32_t skip = none) const;
@@ -56,8 +56,8 @@ public:
                  std::uint32_t skip_b = none) const;
 
     /// Where that line meets a curved surface (from behind: `back`) nearest to a point that lies on
-    /// its facets or nearly on it, within `reach` metres; the point itself where it does not, and on
-    /// planar surfaces. Of a unit direction.
+    /// its facets or nearly on it, within `reach` metres; the point itself where it does not, and
+    /// on planar surfaces. Of a unit direction.
     glm::dvec3 on_line(std::uint32_t surface, bool back, const glm::dvec3& point,
                        const glm::dvec3& direction, double reach) const;
 

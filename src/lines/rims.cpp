@@ -63,15 +63,16 @@ void take_corners(const Scene& scene, const std::vector<glm::dvec3>& positions,
         const bool curved = r < curved_rims;
         const glm::dvec3 a = positions[rim.from], b = positions[rim.to];
         const double room =
-            limits.same_place + (curved ? 1.5 * std::min(limits.chord, limits.bend * glm::distance(a, b)) : 0);
+            limits.same_place +
+            (curved ? 1.5 * std::min(limits.chord, limits.bend * glm::distance(a, b)) : 0);
         const glm::dvec3 low = glm::min(a, b) - room, high = glm::max(a, b) + room;
         const std::vector<Corner>& others = curved ? corners : of_curves;
         auto next = std::lower_bound(others.begin(), others.end(), low.x,
                                      [](const Corner& c, double x) { return c.x < x; });
         for (; next != others.end() && next->x <= high.x; ++next) {
             const glm::dvec3& p = positions[next->number];
-            if (next->number == rim.from || next->number == rim.to || p.y < low.y ||
-                p.y > high.y || p.z < low.z || p.z > high.z)
+            if (next->number == rim.from || next->number == rim.to || p.y < low.y || p.y > high.y ||
+                p.z < low.z || p.z > high.z)
                 continue;
             take(scene, rim, next->number, p, limits.same_place);
         }

@@ -32,10 +32,9 @@ LineSphere line_sphere(const Scene& scene, double wanted_radius) {
                              0.5 * glm::length(box.high - box.low);
         double farthest = 0;
         for (int k = 0; k <= 64 * 65; ++k)
-            farthest = std::max(farthest, glm::distance(sphere.centre,
-                                                        curve_at(curve, k % 65 / 64.0,
-                                                                 k / 65 / 64.0)
-                                                            .at));
+            farthest = std::max(
+                farthest,
+                glm::distance(sphere.centre, curve_at(curve, k % 65 / 64.0, k / 65 / 64.0).at));
         sphere.radius = std::max(sphere.radius, std::min(bound, 1.005 * farthest));
     }
     if (wanted_radius <= 0)
@@ -57,8 +56,8 @@ namespace {
 void order_coincident(const Scene& scene, std::vector<SurfaceHit>& hits, float same) {
     for (std::size_t k = 1; k < hits.size(); ++k) {
         SurfaceHit &a = hits[k - 1], &b = hits[k];
-        if (b.t - a.t <= same && b.back && !a.back &&
-            a.surface != b.surface && !touch(scene.surfaces[a.surface], scene.surfaces[b.surface]))
+        if (b.t - a.t <= same && b.back && !a.back && a.surface != b.surface &&
+            !touch(scene.surfaces[a.surface], scene.surfaces[b.surface]))
             std::swap(a, b);
     }
 }

@@ -44,8 +44,8 @@ private:
     std::uint64_t key(const glm::dvec3& p) const {
         std::uint64_t key = 0;
         for (int axis = 0; axis < 3; ++axis)
-            key = (key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(
-                             std::floor(p[axis] / (16 * tolerance_))))) *
+            key = (key ^ static_cast<std::uint64_t>(
+                             static_cast<std::int64_t>(std::floor(p[axis] / (16 * tolerance_))))) *
                   0x9E3779B97F4A7C15u;
         return key;
     }

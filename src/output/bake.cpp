@@ -34,8 +34,8 @@ public:
     void run() {
         for (std::uint32_t s = 0; s < scene_.surfaces.size(); ++s) {
             // A curved surface is no face of the original mesh: it goes as its cells.
-            const bool whole = bake_.settings.mesh == BakeMesh::original &&
-                               !scene_.surfaces[s].is_curved();
+            const bool whole =
+                bake_.settings.mesh == BakeMesh::original && !scene_.surfaces[s].is_curved();
             std::uint32_t cells =
                 whole ? 1 : cell_count(scene_.surfaces[s].shape(), patches_.grids[s]);
             for (std::uint32_t cell = 0; cell < cells; ++cell)

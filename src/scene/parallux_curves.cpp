@@ -171,8 +171,7 @@ std::vector<Curve> patch_of(const JsonView& points, bool bilinear) {
     for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 4; ++i) {
             const double u = double(i) / 3, v = double(j) / 3;
-            curve.point[4 * j + i] =
-                (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c);
+            curve.point[4 * j + i] = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c);
         }
     return {curve};
 }
@@ -245,7 +244,8 @@ void ParalluxReader::add_curve(const JsonView& json, Curve curve, std::uint32_t 
     Surface surface;
     const glm::dvec2 uv[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (std::size_t k = 0; k < 4; ++k)
-        surface.corner[k] = builder_.weld(curve_at(curve, uv[k].x, uv[k].y).at / builder_.settings().scale);
+        surface.corner[k] =
+            builder_.weld(curve_at(curve, uv[k].x, uv[k].y).at / builder_.settings().scale);
     surface.object = object;
     surface.material = own_material(json);
     read_grid(json, surface);

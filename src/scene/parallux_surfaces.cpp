@@ -82,16 +82,18 @@ void ParalluxReader::read_surfaces() {
     snapper_ = &snapper;
     for (std::size_t i = 0; list && i < list->size(); ++i) {
         JsonView json = list->at(i);
-        json.only({"name", "comment", "parallelogram", "triangle", "box", "disk", "sphere",
-                   "cylinder", "cone", "torus", "bilinear", "bicubic", "swept", "revolved", "trim",
-                   "turned", "grid", "material", "materials", "turn"});
+        json.only({"name",     "comment", "parallelogram", "triangle",  "box",
+                   "disk",     "sphere",  "cylinder",      "cone",      "torus",
+                   "bilinear", "bicubic", "swept",         "revolved",  "trim",
+                   "turned",   "grid",    "material",      "materials", "turn"});
         int kinds = 0;
         for (const char* one : {"parallelogram", "triangle", "box", "disk", "sphere", "cylinder",
                                 "cone", "torus", "bilinear", "bicubic", "swept", "revolved"})
             kinds += json.has(one);
         if (kinds != 1)
-            json.fail("must have one of parallelogram, triangle, box, disk, sphere, cylinder, "
-                      "cone, torus, bilinear, bicubic, swept and revolved");
+            json.fail(
+                "must have one of parallelogram, triangle, box, disk, sphere, cylinder, "
+                "cone, torus, bilinear, bicubic, swept and revolved");
         const bool is_curved = curved_kind(json) != nullptr;
         for (const char* key : {"trim", "turned"})
             if (!is_curved && json.has(key))

@@ -88,9 +88,8 @@ double cell_area(const Scene& scene, const Surface& surface, std::uint32_t nu, s
 }
 
 bool has_curves(const Scene& scene) {
-    return !scene.curves.empty() &&
-           std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
-                       [](const Surface& s) { return s.is_curved(); });
+    return !scene.curves.empty() && std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                                                [](const Surface& s) { return s.is_curved(); });
 }
 
 void refuse_curves(const Scene& scene, const std::string& what) {

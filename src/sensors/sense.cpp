@@ -114,8 +114,8 @@ private:
         const std::uint32_t patch = patch_of(scene_, patches_, hit);
         if (patch == none)
             return;
-        const double cosine =
-            std::abs(glm::dot(direction, surface_normal(scene_, scene_.surfaces[hit.surface], hit.u, hit.v)));
+        const double cosine = std::abs(glm::dot(
+            direction, surface_normal(scene_, scene_.surfaces[hit.surface], hit.u, hit.v)));
         const double share =
             cosine_share(patch, glm::dot(normal, direction) * cosine / (pi * hit.t * hit.t));
         for (std::uint32_t band = 0; band < patches_.bands; ++band) {

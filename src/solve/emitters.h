@@ -70,8 +70,8 @@ private:
     std::vector<double> share_;  // of the patch's area
 };
 
-/// A uniform point of an emitter's cell from two numbers of [0, 1), and the unit normal there of the
-/// side that emits.
+/// A uniform point of an emitter's cell from two numbers of [0, 1), and the unit normal there of
+/// the side that emits.
 struct EmitterPlace {
     glm::dvec3 point, normal;
 };

@@ -224,8 +224,8 @@ void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, doubl
                 const double a = (k % points_a_side + 0.5) / points_a_side;
                 const double b = (k / points_a_side + 0.5) / points_a_side;
                 const auto [point, normal] = point_of_cell(scene, surface, cell, front, back, a, b);
-                const Place place{*run.rays, point, normal, static_cast<std::uint32_t>(s), k,
-                                  shadow};
+                const Place place{*run.rays, point, normal, static_cast<std::uint32_t>(s),
+                                  k,         shadow};
                 for (const Light& light : scene.lights) {
                     const double flux =
                         arrives(place, light) * area / (points_a_side * points_a_side);

@@ -157,15 +157,15 @@ void LineWalks::enter_scene(std::uint32_t patch, const glm::dvec3& base,
 }
 
 // Depths are of corners moved onto the lattice of lines, or of a curved surface's facets: a walk
-// begins on the surface itself, so that it and what shares its place are met or left out as they are
-// by lines.
+// begins on the surface itself, so that it and what shares its place are met or left out as they
+// are by lines.
 Walk LineWalks::leave(const End& from, const glm::dvec3& direction) const {
     const Surface& surface = run_.scene.surfaces[from.surface];
     if (surface.is_curved()) {
         constexpr double reach = 0.05;  // of the scene's radius: facets are much nearer
         const bool by_front = from.patch < run_.patches.grids[from.surface].back;
-        const glm::dvec3 point = run_.rays->on_line(from.surface, by_front, from.point, direction,
-                                                    reach * radius_);
+        const glm::dvec3 point =
+            run_.rays->on_line(from.surface, by_front, from.point, direction, reach * radius_);
         return {*run_.walks, point, direction, from.surface};
     }
     const glm::dvec3 normal = surface_normal(run_.scene, surface);

@@ -41,9 +41,8 @@ public:
                          d = random.uniform();
             const EmitterPlace place = place_on(run_.scene, from, a, b);
             const glm::dvec3 direction = cosine_direction(place.normal, c, d);
-            const SurfaceHit hit =
-                run_.rays->closest(place.point, direction,
-                                   std::numeric_limits<double>::infinity(), from.surface);
+            const SurfaceHit hit = run_.rays->closest(
+                place.point, direction, std::numeric_limits<double>::infinity(), from.surface);
             if (hit.surface == none) {
                 const Spectrum sky = run_.scene.sky.radiance(direction);
                 for (std::uint32_t band = 0; band < bands; ++band)

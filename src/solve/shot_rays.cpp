@@ -97,11 +97,10 @@ public:
             sobol_.point(static_cast<std::uint32_t>(ray));
         const std::size_t piece = emitters_.choose(at);
         const Emitter& emitter = emitters_.pieces[piece];
-        const auto [from, up] =
-            run_.scene.surfaces[emitter.surface].is_curved()
-                ? place_on(run_.scene, emitter, p[0], p[1])
-                : EmitterPlace{point_on(run_.scene, emitter, p[0], p[1]),
-                               normal.of(run_.scene, emitter)};
+        const auto [from, up] = run_.scene.surfaces[emitter.surface].is_curved()
+                                    ? place_on(run_.scene, emitter, p[0], p[1])
+                                    : EmitterPlace{point_on(run_.scene, emitter, p[0], p[1]),
+                                                   normal.of(run_.scene, emitter)};
         const glm::dvec3 direction = cosine_direction(up, p[2], p[3]);
         const Quanta carried = carried_by(ray, piece);
         WorkerTotals& totals = run_.banks.totals(worker);

@@ -83,8 +83,8 @@ Bend bend_of(const Curve& c, bool along_u, double from, double to, double across
     double off = 0;
     for (double w : {0.25, 0.5, 0.75}) {
         const glm::dvec3 out = at(from + w * (to - from)) - a;
-        off = std::max(off, length > 0 ? glm::length(glm::cross(out, way)) / length
-                                       : glm::length(out));
+        off = std::max(off,
+                       length > 0 ? glm::length(glm::cross(out, way)) / length : glm::length(out));
     }
     return {off, length};
 }
@@ -117,8 +117,8 @@ Bounds curve_bounds(const Curve& curve, double u0, double u1, double v0, double 
     std::vector<glm::dvec3> at;
     for (int j = 0; j <= points; ++j)
         for (int i = 0; i <= points; ++i)
-            at.push_back(curve_at(curve, u0 + (u1 - u0) * i / points, v0 + (v1 - v0) * j / points)
-                             .at);
+            at.push_back(
+                curve_at(curve, u0 + (u1 - u0) * i / points, v0 + (v1 - v0) * j / points).at);
     Bounds bounds{at[0], at[0]};
     glm::dvec3 bulge_u(0), bulge_v(0);
     const auto row = static_cast<std::size_t>(points) + 1;

@@ -69,7 +69,8 @@ double solve(double value, F&& f) {
         return 1;
     int side = 0;
     for (int step = 0; step < 60 && high - low > 1e-12; ++step) {
-        const double middle = (low * above - high * below) / (above - below), at = f(middle) - value;
+        const double middle = (low * above - high * below) / (above - below),
+                     at = f(middle) - value;
         if (std::fabs(at) < 1e-12)
             return middle;
         if (at < 0) {

@@ -39,9 +39,9 @@ bool is_quadric(const Curve& c) {
 }
 
 bool is_whole_sphere(const Curve& c) {
-    return is_quadric(c) && c.profile == Curve::Profile::arc && c.turn == 1 &&
-           c.start == -pi / 2 && c.end == pi / 2 && c.low.x == 0 && c.high.x == 1 &&
-           std::min(c.low.y, c.high.y) == 0 && std::max(c.low.y, c.high.y) == 1;
+    return is_quadric(c) && c.profile == Curve::Profile::arc && c.turn == 1 && c.start == -pi / 2 &&
+           c.end == pi / 2 && c.low.x == 0 && c.high.x == 1 && std::min(c.low.y, c.high.y) == 0 &&
+           std::max(c.low.y, c.high.y) == 1;
 }
 
 int quadric_roots(const Curve& c, const glm::dvec3& origin, const glm::dvec3& direction,

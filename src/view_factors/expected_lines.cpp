@@ -41,9 +41,8 @@ void ExpectedLines::add_curved(const Curve& curve, const SurfaceGrid& grid, cons
             const std::uint32_t iu = k % nu, iv = k / nu;
             const std::uint32_t node = nodes.of_patch[side + iv / parts * grid.nu + iu / parts];
             const double u = double(iu) / nu, v = double(iv) / nv;
-            pieces_.push_back(
-                {node, curve_normal(curve, u + 0.5 / nu, v + 0.5 / nv) *
-                           curve_area(curve, u, u + 1.0 / nu, v, v + 1.0 / nv)});
+            pieces_.push_back({node, curve_normal(curve, u + 0.5 / nu, v + 0.5 / nv) *
+                                         curve_area(curve, u, u + 1.0 / nu, v, v + 1.0 / nv)});
         }
 }
 

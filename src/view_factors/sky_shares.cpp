@@ -84,7 +84,8 @@ Mean refined_sky(const Side& side, double tolerance, SkyBlockers::View& view) {
 
 bool sky_from_points(const Scene& scene, const Patches& patches, const FactorSettings& settings,
                      double line_spacing) {
-    const bool can = !is_periodic(scene) && !has_curves(scene) && settings.sky_parts == SkyParts::whole;
+    const bool can =
+        !is_periodic(scene) && !has_curves(scene) && settings.sky_parts == SkyParts::whole;
     if (settings.sky_from == SkyFrom::lines)
         return false;
     if (settings.sky_from == SkyFrom::points && !can)

@@ -66,39 +66,39 @@ TEST_CASE("spheres are met where rays meet them, in the same cells") {
     std::vector<SurfaceHit> met;
     for (std::uint64_t k = 0; k < 8; ++k) {
         const Bundle bundle = make_bundle({3, 8, DirectionSet::random, projector.radius() / 60}, k);
-        for_each_line(projector, bundle, [&](std::int32_t column, std::int32_t row, const Hit* hit,
-                                             std::size_t count) {
-            const glm::dvec3 from =
-                projector.centre() +
-                bundle.spacing * ((column - bundle.offset_x) * bundle.x +
-                                  (row - bundle.offset_y) * bundle.y) -
-                2 * projector.radius() * bundle.direction;
-            rays.all(from, bundle.direction, HUGE_VAL, met);
-            if (met.size() != count) {
-                ++other_counts;
-                return;
-            }
-            for (std::size_t h = 0; h < count; ++h) {
-                const SurfaceHit& ray = met[h];
-                const SurfaceGrid& grid = patches.grids[ray.surface];
-                const std::uint32_t cell =
-                    cell_at(scene.surfaces[ray.surface].shape(), grid.nu, grid.nv, ray.u, ray.v);
-                auto patch = [&](bool back) {
-                    const std::uint32_t first = back ? grid.back : grid.front;
-                    return first == none ? none : first + cell;
-                };
-                ++hits;
-                other_depths += std::fabs(double(hit[h].depth) - ray.t / projector.radius() + 2) >
-                                1e-3 * bundle.spacing;
-                other_cells += hit[h].surface != ray.surface ||
-                               (hit[h].toward != patch(ray.back) && hit[h].toward != none &&
-                                patch(ray.back) != none);
-                other_sides += (hit[h].toward == none) != (patch(ray.back) == none);
-            }
-        });
+        for_each_line(
+            projector, bundle,
+            [&](std::int32_t column, std::int32_t row, const Hit* hit, std::size_t count) {
+                const glm::dvec3 from = projector.centre() +
+                                        bundle.spacing * ((column - bundle.offset_x) * bundle.x +
+                                                          (row - bundle.offset_y) * bundle.y) -
+                                        2 * projector.radius() * bundle.direction;
+                rays.all(from, bundle.direction, HUGE_VAL, met);
+                if (met.size() != count) {
+                    ++other_counts;
+                    return;
+                }
+                for (std::size_t h = 0; h < count; ++h) {
+                    const SurfaceHit& ray = met[h];
+                    const SurfaceGrid& grid = patches.grids[ray.surface];
+                    const std::uint32_t cell = cell_at(scene.surfaces[ray.surface].shape(), grid.nu,
+                                                       grid.nv, ray.u, ray.v);
+                    auto patch = [&](bool back) {
+                        const std::uint32_t first = back ? grid.back : grid.front;
+                        return first == none ? none : first + cell;
+                    };
+                    ++hits;
+                    other_depths += std::fabs(double(hit[h].depth) - ray.t / projector.radius() +
+                                              2) > 1e-3 * bundle.spacing;
+                    other_cells += hit[h].surface != ray.surface ||
+                                   (hit[h].toward != patch(ray.back) && hit[h].toward != none &&
+                                    patch(ray.back) != none);
+                    other_sides += (hit[h].toward == none) != (patch(ray.back) == none);
+                }
+            });
     }
-    MESSAGE(hits, " hits: counts ", other_counts, ", depths ", other_depths, ", cells ", other_cells,
-            ", sides ", other_sides);
+    MESSAGE(hits, " hits: counts ", other_counts, ", depths ", other_depths, ", cells ",
+            other_cells, ", sides ", other_sides);
     CHECK(hits > 200'000);
     // Planes are snapped to 1/4096, and rays take floats.
     CHECK(other_counts < hits / 2000);
@@ -131,8 +131,8 @@ TEST_CASE("a sphere in facets is nearly the sphere itself") {
                           });
         // Lines through a cell, both ways: A / 2 of every bundle's density in the mean.
         for (std::size_t k = 0; k < patches.count(); ++k) {
-            const double expected =
-                patches.area[k] * double(settings.count) / (2 * settings.spacing * settings.spacing);
+            const double expected = patches.area[k] * double(settings.count) /
+                                    (2 * settings.spacing * settings.spacing);
             squares[way] += std::pow(lines[way][k] / expected - 1, 2) / double(patches.count());
         }
     }

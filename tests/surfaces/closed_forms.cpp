@@ -11,11 +11,12 @@ using namespace parallux;
 using namespace parallux::test;
 
 TEST_CASE("inside a sphere, any emission and reflectance a patch") {
-    // F_ij = A_j / A, so that H is the same everywhere: H = Σ A E / Σ A (1 - ρ). Fails when areas or
-    // cells are wrong.
+    // F_ij = A_j / A, so that H is the same everywhere: H = Σ A E / Σ A (1 - ρ). Fails when areas
+    // or cells are wrong.
     for (int n : {3, 8}) {
         Scene scene = curved_scene(R"({"sphere": {"centre": [0,0,0], "radius": 1, "inward": true},
-            "grid": [)" + std::to_string(n) + ", " + std::to_string(2 * n) + "]}");
+            "grid": [)" + std::to_string(n) +
+                                   ", " + std::to_string(2 * n) + "]}");
         Patches patches = make_patches(scene);
         double sent = 0, kept = 0;
         for (std::size_t k = 0; k < patches.count(); ++k) {
@@ -43,8 +44,8 @@ TEST_CASE("inside a sphere, any emission and reflectance a patch") {
                 bars += patches.area[k] * bar * bar;
             }
         }
-        MESSAGE("grid ", n, ": H ", uniform, ", rms off ", std::sqrt(square / area), ", error bars ",
-                std::sqrt(bars / area), ", mean off ", mean / area);
+        MESSAGE("grid ", n, ": H ", uniform, ", rms off ", std::sqrt(square / area),
+                ", error bars ", std::sqrt(bars / area), ", mean off ", mean / area);
         // 18 and more patches of 7 degrees of freedom each: the mean of squares is known to some
         // tenths; what facets take away is less than a thousandth.
         CHECK(bars > 0);
@@ -84,8 +85,9 @@ TEST_CASE("form factors of spheres, disks and cylinders within a thousandth") {
             R"({"disk": {"centre": [0,0,0], "normal": [0,0,1], "radius": 1}, "grid": [4, 8]},
                {"disk": {"centre": [0,0,1.5], "normal": [0,0,-1], "radius": 0.8}, "grid": [4, 8]})");
         const double r1 = 1 / 1.5, r2 = 0.8 / 1.5, x = 1 + (1 + r2 * r2) / (r1 * r1);
-        CHECK(factor(scene, 0, 1) ==
-              doctest::Approx(0.5 * (x - std::sqrt(x * x - 4 * r2 * r2 / (r1 * r1)))).epsilon(1e-3));
+        CHECK(
+            factor(scene, 0, 1) ==
+            doctest::Approx(0.5 * (x - std::sqrt(x * x - 4 * r2 * r2 / (r1 * r1)))).epsilon(1e-3));
     }
     {
         // A cylinder's inside to itself, by its ends: F = 1 - (√(4 h² + 4 ...)): with h = H / 2 R,

@@ -12,8 +12,8 @@ using namespace parallux;
 namespace {
 
 std::string scene(const std::string& surface, const std::string& more = "") {
-    return R"({"parallux": 1, "bands": 1, "materials": [], "surfaces": [{)" + surface + "}]" + more +
-           "}";
+    return R"({"parallux": 1, "bands": 1, "materials": [], "surfaces": [{)" + surface + "}]" +
+           more + "}";
 }
 
 }  // namespace
