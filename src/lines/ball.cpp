@@ -9,6 +9,7 @@
 #include "lines/depth_order.h"
 #include "lines/facets.h"
 #include "lines/hits-inl.h"
+#include "surfaces/curve.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace parallux {
@@ -41,7 +42,7 @@ void project_balls(const Bundle& bundle, const Scene& scene, const glm::dvec3& c
                    Projection& projection) {
     projection.balls.clear();
     for (const Curve& curve : scene.curves) {
-        const glm::dvec3 middle = curve.origin + curve.point[0].y * curve.frame[2] - centre;
+        const glm::dvec3 middle = sphere_centre(curve) - centre;
         Projection::Ball ball;
         ball.x = glm::dot(middle, bundle.x) / bundle.spacing + bundle.offset_x;
         ball.y = glm::dot(middle, bundle.y) / bundle.spacing + bundle.offset_y;

@@ -10,14 +10,13 @@
 #include "lines/rims.h"
 #include "lines/welder.h"
 #include "parallux/error.h"
-#include "parallux/lines.h"
 #include "surfaces/curve.h"
 
 namespace parallux {
 
 namespace {
 
-constexpr double bend = 1.0 / 72, same_place = 1e-9;
+constexpr double bend = facet_bend, same_place = 1e-9;
 
 // A curved surface cut along u and v; corners row by row.
 struct Cut {
@@ -77,7 +76,7 @@ private:
         Surface half;
         half.corner.fill(static_cast<std::uint32_t>(facets_.scene.positions.size()));
         half.curve = static_cast<std::uint32_t>(facets_.scene.curves.size());
-        facets_.scene.positions.push_back(curve.origin + curve.point[0].y * curve.frame[2]);
+        facets_.scene.positions.push_back(sphere_centre(curve));
         facets_.scene.curves.push_back(curve);
         for (std::uint16_t far : {std::uint16_t(0), std::uint16_t(1)}) {
             half.grid_u = far;
@@ -274,32 +273,6 @@ private:
 
 Facets make_facets(const Scene& scene, const Patches& patches, double chord, Spheres spheres) {
     return Cutter(scene, patches, chord, spheres).cut();
-}
-
-double facet_chord(const Scene& scene, double spacing) {
-    return (spacing > 0 ? spacing : 1e-3 * line_sphere(scene).radius) / 8;
-}
-
-std::uint64_t facets_bytes(const Scene& scene, const Patches& patches, double spacing,
-                           std::uint64_t projections) {
-    if (!has_curves(scene))
-        return 0;
-    std::uint64_t facets = 0, corners = 0;
-    const double chord = facet_chord(scene, spacing);
-    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-        const Surface& surface = scene.surfaces[s];
-        if (!surface.is_curved() || is_whole_sphere(scene.curves[surface.curve]))
-            continue;
-        const Curve& curve = scene.curves[surface.curve];
-        const std::uint64_t u = curve_cuts(curve, true, patches.grids[s].nu, chord, bend).size();
-        const std::uint64_t v = curve_cuts(curve, false, patches.grids[s].nv, chord, bend).size();
-        facets += 2 * (u - 1) * (v - 1);
-        corners += u * v;
-    }
-    // Arrays that grow hold up to twice their content.
-    const std::uint64_t a_facet = 2 * (sizeof(Surface) + sizeof(SurfaceGrid) + 4);
-    return facets * (a_facet + 8 * projections) +
-           corners * (2 * sizeof(glm::dvec3) + 4 + 12 * projections);
 }
 
 }  // namespace parallux

@@ -21,6 +21,9 @@ struct Facets {
     std::vector<std::uint32_t> parent;  ///< the surface that each was cut from
 };
 
+/// Of a chord's own length, how far it may lie from the surface.
+inline constexpr double facet_bend = 1.0 / 72;
+
 /// Chords stay within `chord` metres of the surface, and within 1/72 of their own lengths, which
 /// makes areas and outlines less by 5·10⁻⁴ at most. Surfaces that share an edge, or a part of one,
 /// share its corners: where one has a corner on another's edge (to 10⁻⁹ of the scene) the other

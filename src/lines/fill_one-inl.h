@@ -118,12 +118,12 @@ struct Filler {
     // Any surface but a small triangle.
     void fill(std::size_t view) {
         const Surface& surface = tile.scene.surfaces[tile.surfaces[view]];
-        const Projection::Corner* p[4];
-        for (int k = 0; k < 4; ++k)  // a triangle has its last corner twice
-            p[k] = &tile.projection.corners[surface.corner[k] == none ? surface.corner[k - 1]
-                                                                      : surface.corner[k]];
         if (surface.is_curved())
-            return fill_half(view, surface);
+            return fill_half(view);
+        const Projection::Corner* p[4];
+        for (std::size_t k = 0; k < 4; ++k)  // a triangle has its last corner twice
+            p[k] = &tile.projection
+                        .corners[surface.corner[k == 3 && surface.corner[3] == none ? 2 : k]];
         const Rectangle box = rectangle_of(tile.projection, surface);
         if (box.right - box.left <= small_extent && box.bottom - box.top <= small_extent &&
             turn_of(tile.projection, surface) != 0 && fits(p))
@@ -235,7 +235,7 @@ private:
     }
 
     // Half of a sphere.
-    void fill_half(std::size_t view, const Surface& surface) {
+    void fill_half(std::size_t view) {
         const Ints i;
         const Floats d;
         const SurfaceGrid& grid = tile.patches.grids[tile.surfaces[view]];

@@ -27,6 +27,11 @@ LineSphere line_sphere(const Scene& scene, double wanted_radius) {
         if (!surface.is_curved())
             continue;
         const Curve& curve = scene.curves[surface.curve];
+        if (is_whole_sphere(curve)) {
+            sphere.radius = std::max(
+                sphere.radius, glm::distance(sphere.centre, sphere_centre(curve)) + curve.radius);
+            continue;
+        }
         const Bounds box = curve_bounds(curve, 0, 1, 0, 1, 64);
         const double bound = glm::distance(sphere.centre, 0.5 * (box.low + box.high)) +
                              0.5 * glm::length(box.high - box.low);

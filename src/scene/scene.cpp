@@ -177,7 +177,7 @@ bool is_closed(const Scene& scene) {
     if (has_curves(scene)) {
         Patches cells;
         cells.grids.resize(scene.surfaces.size(), {0, none, 1, 1});
-        return is_closed(make_facets(scene, cells, HUGE_VAL).scene);
+        return is_closed(make_facets(scene, cells, HUGE_VAL, Spheres::facets).scene);
     }
     std::vector<std::uint64_t> edges;
     edges.reserve(4 * scene.surfaces.size());

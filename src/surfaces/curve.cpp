@@ -114,6 +114,10 @@ glm::dvec3 curve_normal(const Curve& curve, double u, double v) {
 }
 
 Bounds curve_bounds(const Curve& curve, double u0, double u1, double v0, double v1, int points) {
+    if (is_whole_sphere(curve)) {
+        const glm::dvec3 centre = sphere_centre(curve);
+        return {centre - curve.radius, centre + curve.radius};
+    }
     std::vector<glm::dvec3> at;
     for (int j = 0; j <= points; ++j)
         for (int i = 0; i <= points; ++i)

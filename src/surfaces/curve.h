@@ -42,6 +42,7 @@ std::vector<double> curve_cuts(const Curve& curve, bool along_u, std::uint32_t c
 
 /// Whether it is a sphere of which nothing is left out.
 bool is_whole_sphere(const Curve& curve);
+glm::dvec3 sphere_centre(const Curve& curve);
 
 /// A line's crossing of a curve.
 struct CurveRoot {

@@ -44,6 +44,10 @@ bool is_whole_sphere(const Curve& c) {
            std::max(c.low.y, c.high.y) == 1;
 }
 
+glm::dvec3 sphere_centre(const Curve& c) {
+    return c.origin + c.point[0].y * c.frame[2];
+}
+
 int quadric_roots(const Curve& c, const glm::dvec3& origin, const glm::dvec3& direction,
                   CurveRoot* roots) {
     // In the curve's own frame.
