@@ -10,6 +10,7 @@
 
 #include "lines/depth_order.h"
 #include "lines/sheets.h"
+#include "surfaces/curve.h"
 
 namespace parallux {
 
@@ -39,12 +40,18 @@ struct Flat {
     Box box;
 };
 
+// A corner; of disks, of the square about them.
+glm::dvec3 corner_of(const Scene& scene, const Surface& surface, unsigned k) {
+    return surface.is_curved() ? disk_square(scene.curves[surface.curve])[k]
+                               : scene.positions[surface.corner[k]];
+}
+
 Flat flat_of(const Scene& scene, const Surface& surface, const glm::dvec3& centre) {
     Flat flat;
     flat.corners = surface.shape() == Shape::triangle ? 3 : 4;
     glm::dvec3 middle(0);
     for (unsigned k = 0; k < flat.corners; ++k) {
-        flat.corner[k] = scene.positions[surface.corner[k]] - centre;
+        flat.corner[k] = corner_of(scene, surface, k) - centre;
         middle += flat.corner[k] / double(flat.corners);
         flat.box.low = glm::min(flat.box.low, flat.corner[k]);
         flat.box.high = glm::max(flat.box.high, flat.corner[k]);
@@ -163,7 +170,7 @@ SharedPlaces::SharedPlaces(const Scene& scene) {
     std::vector<Member> members;
     members.reserve(scene.surfaces.size() + scene.surfaces.size() / 8);
     for (std::uint32_t s = 0; s < scene.surfaces.size(); ++s)
-        if (!scene.surfaces[s].is_curved())
+        if (!scene.surfaces[s].is_curved() || is_disk(scene.curves[scene.surfaces[s].curve]))
             add_members(flat_of(scene, scene.surfaces[s], centre), s, radius_, members);
     std::sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
         return a.cell != b.cell ? a.cell < b.cell : a.surface < b.surface;
@@ -192,9 +199,11 @@ SharedPlaces::SharedPlaces(const Scene& scene) {
         plane_of_[pair.first] = static_cast<std::uint32_t>(planes_.size());
         const Surface& surface = scene.surfaces[pair.first];
         Plane plane;
-        plane.origin = scene.positions[surface.corner[0]];
-        plane.u = scene.positions[surface.corner[1]] - plane.origin;
-        plane.v = scene.positions[surface.corner_v()] - plane.origin;
+        plane.origin = corner_of(scene, surface, 0);
+        plane.u = corner_of(scene, surface, 1) - plane.origin;
+        plane.v = corner_of(scene, surface, surface.corner[3] == none ? 2 : 3) - plane.origin;
+        if (surface.is_curved())
+            plane.disk = scene.curves[surface.curve];
         plane.normal = surface_normal(scene, surface);
         plane.uu = glm::dot(plane.u, plane.u);
         plane.uv = glm::dot(plane.u, plane.v);
@@ -247,6 +256,8 @@ bool SharedPlaces::covers_part(std::uint32_t surface, const glm::dvec3& out,
 bool SharedPlaces::holds(std::uint32_t surface, const glm::dvec3& point, double& u,
                          double& v) const {
     const Plane& p = plane(surface);
+    if (p.disk)
+        return on_disk(*p.disk, point, u, v);
     const glm::dvec3 way = point - p.origin;
     const double along_u = glm::dot(way, p.u), along_v = glm::dot(way, p.v);
     const double area = p.uu * p.vv - p.uv * p.uv;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace parallux {
 /// sticker. Which of them a ray meets first must not be chance, and must be what a bundle's line
 /// meets (TieOrder): by place_rank(), the one met from behind before others but for the faces of
 /// sheets; else the nearer plane; else, with the first of the scene in front of others that look
-/// the same way. A ray of the other direction meets them the other way round. Curved surfaces are
-/// left out, disks too: none is taken to share a place. Immutable.
+/// the same way. A ray of the other direction meets them the other way round. Disks are among them;
+/// other curved surfaces are not, nowhere but at points and edges in one place with others, but for
+/// identical ones, which RayCurves has in the scene's order. Immutable.
 class SharedPlaces {
 public:
     /// O(n log n) for n surfaces of which few lie in one plane and over each other along its
@@ -53,7 +55,8 @@ private:
         glm::dvec3 origin, u, v, normal;
         double uu, uv, vv;
         Surface surface;
-        bool sheet = false;  // one of its two faces
+        bool sheet = false;         // one of its two faces
+        std::optional<Curve> disk;  // the corners are those of the square about it
     };
     const Plane& plane(std::uint32_t surface) const { return planes_[plane_of_[surface]]; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -43,6 +44,13 @@ std::vector<double> curve_cuts(const Curve& curve, bool along_u, std::uint32_t c
 /// Whether it is a sphere of which nothing is left out.
 bool is_whole_sphere(const Curve& curve);
 glm::dvec3 sphere_centre(const Curve& curve);
+
+/// Whether it lies in one plane: disks and rings, whole or cut.
+bool is_disk(const Curve& curve);
+/// The square about a disk, counter-clockwise seen along its axis.
+std::array<glm::dvec3, 4> disk_square(const Curve& curve);
+/// Whether a point of its plane lies on a disk, and its (u, v).
+bool on_disk(const Curve& curve, const glm::dvec3& point, double& u, double& v);
 
 /// A line's crossing of a curve.
 struct CurveRoot {

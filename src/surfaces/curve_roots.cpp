@@ -105,6 +105,27 @@ int quadric_roots(const Curve& c, const glm::dvec3& origin, const glm::dvec3& di
     return found;
 }
 
+bool is_disk(const Curve& c) {
+    return c.kind == Curve::Kind::revolved && c.profile == Curve::Profile::line &&
+           c.point[0].y == c.point[1].y;
+}
+
+std::array<glm::dvec3, 4> disk_square(const Curve& c) {
+    const glm::dvec3 middle = c.origin + c.point[0].y * c.frame[2];
+    const double radius = std::max(c.point[0].x, c.point[1].x);
+    const glm::dvec3 x = radius * c.frame[0], y = radius * c.frame[1];
+    return {middle - x - y, middle + x - y, middle + x + y, middle - x + y};
+}
+
+bool on_disk(const Curve& c, const glm::dvec3& point, double& u, double& v) {
+    CurveRoot roots[2];
+    if (quadric_roots(c, point, c.frame[2], roots) == 0)
+        return false;
+    u = roots[0].u;
+    v = roots[0].v;
+    return true;
+}
+
 int newton_roots(const Curve& c, const glm::dvec3& origin, const glm::dvec3& direction, double u0,
                  double u1, double v0, double v1, CurveRoot* roots) {
     constexpr int most = 4, steps = 12;
