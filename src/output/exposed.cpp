@@ -41,21 +41,12 @@ public:
     }
 
     ExposedPatch find(std::uint32_t patch, std::vector<Frame>& frames) const {
+        const std::span<const std::uint32_t> all = pieces_.of_patch(patch);
+        if (!all.empty() && scene_.surfaces[pieces_.surface(all.front())].is_curved())
+            return curved_cell(patch, all.front());
         ExposedPatch result = whole(patch, frames);
         if (!(result.area > 0)) {
             result.share = 0;
-            return result;
-        }
-        // A curved cell is taken to be exposed, in its middle: the plane of its corners is not it.
-        const Surface& first = scene_.surfaces[result.surface];
-        if (first.is_curved()) {
-            const std::uint32_t piece = pieces_.of_patch(patch).front();
-            const SurfaceGrid& grid = patches_.grids[result.surface];
-            const double u = (pieces_.cell(piece) % grid.nu + 0.5) / grid.nu;
-            const double v = (pieces_.cell(piece) / grid.nu + 0.5) / grid.nv;
-            result.mean = result.seen = surface_point(scene_, first, u, v);
-            result.normal =
-                surface_normal(scene_, first, u, v) * (pieces_.back(piece) ? -1.0 : 1.0);
             return result;
         }
         // Ask a few points; measure with many where they disagree.
@@ -114,9 +105,34 @@ private:
             for (const glm::dvec3& p : {f.origin, f.origin + f.a, f.origin + f.b,
                                         f.triangle ? f.origin : f.origin + f.a + f.b})
                 result.extent = std::max(result.extent, glm::distance(p, result.mean));
-        double side = std::sqrt(result.area);
-        result.size = std::clamp(std::sqrt(2.0) * result.extent, side, 3 * side);
+        set_size(result);
         return result;
+    }
+
+    // A curved cell is taken to be exposed, in its middle: the plane of its corners is not it, and
+    // at a pole it has but three.
+    ExposedPatch curved_cell(std::uint32_t patch, std::uint32_t piece) const {
+        ExposedPatch result;
+        result.surface = pieces_.surface(piece);
+        result.area = patches_.area[patch];
+        const Surface& surface = scene_.surfaces[result.surface];
+        const SurfaceGrid& grid = patches_.grids[result.surface];
+        const CellCorners c = cell_corners(surface.shape(), grid, pieces_.cell(piece));
+        const double u = (pieces_.cell(piece) % grid.nu + 0.5) / grid.nu;
+        const double v = (pieces_.cell(piece) / grid.nu + 0.5) / grid.nv;
+        result.mean = result.seen = surface_point(scene_, surface, u, v);
+        result.normal = surface_normal(scene_, surface, u, v) * (pieces_.back(piece) ? -1.0 : 1.0);
+        for (std::uint32_t k = 0; k < c.count; ++k)
+            result.extent = std::max(
+                result.extent,
+                glm::distance(surface_point(scene_, surface, c.uv[k].x, c.uv[k].y), result.mean));
+        set_size(result);
+        return result;
+    }
+
+    static void set_size(ExposedPatch& patch) {
+        const double side = std::sqrt(patch.area);
+        patch.size = std::clamp(std::sqrt(2.0) * patch.extent, side, 3 * side);
     }
 
     void ask(ExposedPatch& patch, const std::vector<Frame>& frames, int points,

@@ -14,8 +14,9 @@ namespace parallux {
 
 namespace {
 
-constexpr double crease = 0.35;    // radians between two faces of one smooth surface
-constexpr double one_side = 0.55;  // radians between normals of patches that are mixed
+constexpr double crease = 0.35;          // radians between two faces of one smooth surface
+constexpr double one_side = 0.55;        // radians between normals of patches that are mixed
+constexpr double one_curved_side = 1.2;  // of cells of one curved surface, smooth however coarse
 
 // Surfaces joined over welded edges without a crease, by a representative of each set.
 class SmoothSurfaces {
@@ -89,18 +90,21 @@ public:
     PairTest(const Scene& scene, const RayScene& rays) : smooth_(scene), rays_(rays) {
         Bounds bounds = scene_bounds(scene);
         rounding_ = 4e-6 * glm::length(bounds.high - bounds.low);
+        for (const Surface& surface : scene.surfaces)
+            curved_.push_back(surface.is_curved());
     }
 
     bool operator()(const ExposedPatch& a, const ExposedPatch& b) const {
         double turn = glm::dot(a.normal, b.normal);
-        if (turn < std::cos(one_side))
+        const bool one_curve = a.surface == b.surface && curved_[a.surface];
+        if (turn < std::cos(one_curve ? one_curved_side : one_side))
             return false;
         glm::dvec3 way = b.mean - a.mean;
         double distance = glm::length(way);
         double size = std::max(a.size, b.size);
         bool coplanar =
             turn > 1 - 1e-6 && std::abs(glm::dot(a.normal, way)) <= 1e-4 * size + rounding_;
-        if (!coplanar) {
+        if (!coplanar && !one_curve) {
             if (smooth_.of(a.surface) != smooth_.of(b.surface))
                 return false;
             // Steps of one surface, one above the other, are not one piece.
@@ -132,6 +136,7 @@ private:
     SmoothSurfaces smooth_;
     const RayScene& rays_;
     double rounding_;
+    std::vector<bool> curved_;  // surfaces
 };
 
 }  // namespace
