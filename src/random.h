@@ -26,6 +26,10 @@ inline constexpr std::uint64_t local_gather = std::uint64_t(5) << 56;
 inline constexpr std::uint64_t sensors = std::uint64_t(6) << 56;
 inline constexpr std::uint64_t trial_rays = std::uint64_t(7) << 56;
 inline constexpr std::uint64_t ray_steps = std::uint64_t(8) << 56;
+inline constexpr std::uint64_t walks = std::uint64_t(9) << 56;         // from line to line
+inline constexpr std::uint64_t shot_walks = std::uint64_t(10) << 56;   // of a first shot's rays
+inline constexpr std::uint64_t light_walks = std::uint64_t(11) << 56;  // from lights without area
+inline constexpr std::uint64_t path_tracer = std::uint64_t(12) << 56;
 }  // namespace stream
 
 class Random {

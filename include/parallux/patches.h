@@ -33,11 +33,15 @@ struct Patches {
     /// through.
     std::vector<float> transmittance;
     std::vector<std::uint32_t> other;  ///< patch of the other side, or none; filled beside those
-    std::uint32_t clusters = 0;        ///< patches (cells) shared by more than one surface
-    double size = 0;                   ///< the patch side that was aimed at; 0: grids given
+    /// Share of what arrives that mirrors and glass take, one a patch; empty where there are none.
+    /// Irradiance is what the diffuse part gets: that share left out.
+    std::vector<float> specular;
+    std::uint32_t clusters = 0;  ///< patches (cells) shared by more than one surface
+    double size = 0;             ///< the patch side that was aimed at; 0: grids given
 
     std::size_t count() const { return area.size(); }
     bool translucent() const { return !transmittance.empty(); }
+    float specular_share(std::size_t patch) const { return specular.empty() ? 0 : specular[patch]; }
     /// Share of what arrives that leaves again, from either side; k = patch * bands + band.
     float albedo(std::size_t k) const {
         return translucent() ? reflectance[k] + transmittance[k] : reflectance[k];

@@ -24,6 +24,28 @@ struct Texture {
     std::vector<glm::vec3> texels;
 };
 
+/// What a surface does with light otherwise than diffusely. Of all that arrives, on either side, a
+/// share meets this, and the rest the diffuse part.
+///  mirror  smooth, or rough by the microfacets of GGX (B. Walter, S. Marschner, H. Li and
+///          K. Torrance, Microfacet Models for Refraction through Rough Surfaces, 2007), with what
+///          bounces between them given back (C. Kulla and A. Conty, Revisiting Physically Based
+///          Shading at Imageworks, 2017): with reflectance 1 it would lose nothing
+///  glass   smooth: a body whose fronts look out, with Fresnel's and Snell's laws at each surface;
+///          or a thin sheet, which light goes through straight. Two-sided.
+struct Specular {
+    enum class Kind : std::uint8_t { absent, mirror, glass };
+    Kind kind = Kind::absent;
+    float share = 1;  ///< 0 … 1, in all bands
+    /// Mirror: reflectance seen straight on. Glass: of what passes a surface. The material's
+    /// reflectance_texture and vertex colours multiply it.
+    Spectrum colour;
+    Spectrum grazing;     ///< mirror: reflectance at grazing incidence; Schlick's law between
+    float roughness = 0;  ///< mirror: √α of GGX, as glTF has it; 0: smooth
+    double ior = 1.5;     ///< glass: refractive index, 1 … 4
+    Spectrum absorption;  ///< glass: 1/m inside
+    bool thin = false;    ///< glass: a sheet
+};
+
 /// What a surface does with light. Values are per band; textures and vertex colours multiply them
 /// (a texture's or a colour's three channels apply to scenes of three bands only).
 struct Material {
@@ -41,6 +63,12 @@ struct Material {
     bool own_back = false;  ///< the back has these two values, else the front's
     Spectrum back_reflectance, back_transmittance;
 
+    Specular specular;
+
+    /// Share of what arrives that the diffuse part does not get.
+    float specular_share() const {
+        return specular.kind == Specular::Kind::absent ? 0 : specular.share;
+    }
     const Spectrum& transmittance_of(bool back) const {
         return back && own_back ? back_transmittance : transmittance;
     }
@@ -202,6 +230,8 @@ struct LoadSettings {
 ///  by winding; Parallux by two_sided
 ///  transmittance: Parallux by transmittance, glTF by KHR_materials_diffuse_transmission, which
 ///  makes a material two-sided; see the README
+///  mirrors and glass: Parallux by mirror and glass, glTF by metallic-roughness,
+///  KHR_materials_transmission, KHR_materials_ior and KHR_materials_volume
 ///  sky's up: y in glTF and OBJ, z in STL, as a Parallux scene says
 ///  reflectance 1 (glTF's default) becomes 0.999, with a warning; a picture that is absent or
 ///  broken leaves its factor alone, with a warning
@@ -220,6 +250,11 @@ double surface_area(const Scene& scene, const Surface& surface);
 Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u, double v,
                              bool back = false);
 Spectrum surface_emission(const Scene& scene, std::uint32_t surface, double u, double v);
+/// The colour of a surface's specular part at one point: factor × texture × vertex colour, clamped
+/// to [0, 1].
+Spectrum surface_tint(const Scene& scene, std::uint32_t surface, double u, double v);
+/// Whether any surface mirrors or is glass.
+bool is_specular(const Scene& scene);
 
 /// Irradiance of an unobstructed plane that faces up, from the sky alone; W/m² per band. By
 /// quadrature, to 10⁻⁴.

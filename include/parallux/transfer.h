@@ -68,7 +68,8 @@ struct TransferState {
     AlignedArray<std::int32_t> carried;
     std::vector<std::int64_t> sky;       ///< band totals of what the sky sent in
     std::vector<std::int64_t> emitted;   ///< band totals of emission quanta sent
-    std::vector<std::int64_t> absorbed;  ///< band totals
+    std::vector<std::int64_t> lost;      ///< band totals of what mirrors and glass absorbed
+    std::vector<std::int64_t> absorbed;  ///< band totals, with those
     std::vector<std::int64_t> escaped;
 };
 
@@ -78,6 +79,8 @@ struct alignas(64) WorkerTotals {
     std::vector<std::int64_t> escaped = std::vector<std::int64_t>(max_bands, 0);
     /// What came in from outside the exchange: from the sky, or from a light's first shot.
     std::vector<std::int64_t> sky = std::vector<std::int64_t>(max_bands, 0);
+    /// What mirrors and glass have absorbed.
+    std::vector<std::int64_t> lost = std::vector<std::int64_t>(max_bands, 0);
 };
 
 /// What the lines of one direction bring from outside the scene, quanta a line and band.

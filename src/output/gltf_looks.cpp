@@ -48,14 +48,17 @@ GltfLooks::Json GltfLooks::make(const BakePart& part) {
     const bool textured = lightmap_ ? scene_.bands == 3 && m.reflectance_texture != none
                                     : keeps_picture(scene_, settings_, part.material);
     glm::vec3 base(1);
-    if (lightmap_)
+    const bool metal = lightmap_ && m.specular.kind == Specular::Kind::mirror;
+    if (metal)
+        base = glm::clamp(colour_of(m.specular.colour.value.data(), scene_.bands), 0.0f, 1.0f);
+    else if (lightmap_)
         base = glm::clamp(colour_of(m.reflectance.value.data(), scene_.bands), 0.0f, 1.0f);
     Json pbr = {{"baseColorFactor", {base.x, base.y, base.z, 1}}};
     if (textured)
         pbr["baseColorTexture"] = {{"index", picture(m.reflectance_texture).index},
                                    {"texCoord", m.reflectance_uv == 0 ? 0 : 2}};
-    pbr["metallicFactor"] = 0;
-    pbr["roughnessFactor"] = 1;
+    pbr["metallicFactor"] = metal ? m.specular.share : 0;
+    pbr["roughnessFactor"] = metal ? m.specular.roughness : 1;
     Json look = {{"name", m.name}, {"pbrMetallicRoughness", pbr}, {"doubleSided", part.both_sides}};
     if (lightmap_)
         add_emission(m, look);

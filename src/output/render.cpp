@@ -6,6 +6,7 @@
 
 #include "lines/ray_scene.h"
 #include "output/interpolate.h"
+#include "output/reflections.h"
 #include "output/tone.h"
 #include "parallel.h"
 #include "parallux/error.h"
@@ -82,6 +83,7 @@ public:
           settings_(settings),
           rays_(scene, settings.threads),
           field_(scene, patches, solution, rays_, settings.threads),
+          reflections_(scene, patches, rays_),
           glare_(0.18 * std::exp2(settings.exposure) / usual_luminance(patches, solution)) {}
 
     // Fills one pixel of every layer.
@@ -94,11 +96,11 @@ public:
             // Place the samples on a Fibonacci lattice, shifted by pixel and bent to a tent.
             double dx = tent(std::fmod((i + 0.5) / samples + shift_x, 1.0));
             double dy = tent(std::fmod(i * 0.6180339887498949 + shift_y, 1.0));
-            add(sums, look(view.ray(x + 0.5 + dx, y + 0.5 + dy)));
+            add(sums, look(view.ray(x + 0.5 + dx, y + 0.5 + dy), random));
         }
         store(sums, samples, std::size_t(y) * picture.width + x, picture);
         picture.patch[std::size_t(y) * picture.width + x] =
-            patch_id(look(view.ray(x + 0.5, y + 0.5)));
+            patch_id(look(view.ray(x + 0.5, y + 0.5), random));
     }
 
 private:
@@ -128,7 +130,7 @@ private:
         return {};
     }
 
-    Sight look(const Ray& ray) const {
+    Sight look(const Ray& ray, Random& random) const {
         Sight sight;
         SurfaceHit hit = meet(ray);
         if (hit.surface == none) {
@@ -138,8 +140,23 @@ private:
         }
         const Surface& surface = scene_.surfaces[hit.surface];
         const SurfaceGrid& grid = patches_.grids[hit.surface];
-        sight.patch = (hit.back ? grid.back : grid.front) +
-                      cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v);
+        sight = of_patches(hit, (hit.back ? grid.back : grid.front) +
+                                    cell_at(surface.shape(), grid.nu, grid.nv, hit.u, hit.v));
+        if (patches_.specular_share(sight.patch) > 0)
+            reflections_.add(
+                ray.direction, hit,
+                [&](const SurfaceHit& seen, std::uint32_t patch) {
+                    return of_patches(seen, patch).radiance;
+                },
+                random, sight.radiance);
+        return sight;
+    }
+
+    // What the patches themselves show.
+    Sight of_patches(const SurfaceHit& hit, std::uint32_t patch) const {
+        Sight sight;
+        const Surface& surface = scene_.surfaces[hit.surface];
+        sight.patch = patch;
         sight.normal = surface_normal(scene_, surface) * (hit.back ? -1.0 : 1.0);
         sight.albedo = surface_reflectance(scene_, hit.surface, hit.u, hit.v, hit.back);
         const std::uint32_t bands = solution_.bands;
@@ -201,6 +218,7 @@ private:
     const PictureSettings& settings_;
     RayScene rays_;
     Interpolation field_;
+    Reflections reflections_;
     double glare_;
 };
 

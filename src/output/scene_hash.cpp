@@ -50,6 +50,8 @@ private:
         // Other scenes keep the hashes that they had before there was transmittance.
         if (m.own_back || m.is_translucent())
             add(m.own_back, m.transmittance, m.back_reflectance, m.back_transmittance);
+        if (const Specular& s = m.specular; s.kind != Specular::Kind::absent)
+            add(s.kind, s.share, s.colour, s.grazing, s.roughness, s.ior, s.absorption, s.thin);
     }
     void one(const Light& l) {
         add(l.kind, l.position, l.direction, l.intensity, l.inner_cone, l.outer_cone, l.range,
@@ -73,6 +75,8 @@ std::uint64_t scene_hash(const Scene& scene, const Patches& patches) {
     sum.add(patches.bands, patches.grids, patches.area, patches.reflectance, patches.emission);
     if (patches.translucent())
         sum.add(patches.transmittance, patches.other);
+    if (!patches.specular.empty())
+        sum.add(patches.specular);
     return sum.value();
 }
 

@@ -67,6 +67,21 @@ void find_other_sides(const Scene& scene, std::size_t count, Patches& patches) {
     }
 }
 
+// Makes room for what mirrors and glass take where there are any, and sets it.
+void set_specular(const Scene& scene, std::size_t count, Patches& patches) {
+    patches.specular.clear();
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const float share = scene.materials[scene.surfaces[s].material].specular_share();
+        if (share == 0)
+            continue;
+        patches.specular.resize(count, 0);
+        const SurfaceGrid& grid = patches.grids[s];
+        for (std::uint32_t first : {grid.front, grid.back})
+            if (first != none)
+                std::fill_n(&patches.specular[first], grid.nu * grid.nv, share);
+    }
+}
+
 }  // namespace
 
 void set_patch_values(const Scene& scene, const std::vector<double>& surface_areas,
@@ -76,6 +91,7 @@ void set_patch_values(const Scene& scene, const std::vector<double>& surface_are
     patches.reflectance.assign(count * bands, 0);
     patches.emission.assign(count * bands, 0);
     find_other_sides(scene, count, patches);
+    set_specular(scene, count, patches);
 
     // Areas first, since values are means weighted by area.
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {

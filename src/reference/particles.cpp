@@ -142,7 +142,7 @@ PassResult particle_pass(const Run& run, DirectLight& direct, TransferState& sta
 
     // Every walk has ended: what did not escape was absorbed, what was reflected sent on. Particles
     // stopped early stand for those not born.
-    run.banks.take_totals(state.emitted, state.escaped);
+    run.banks.take_totals(state.emitted, state.escaped, state.lost);
     for (std::uint32_t band = 0; band < state.bands; ++band) {
         state.emitted[band] = std::llrint(static_cast<double>(state.emitted[band]) / result.done);
         state.escaped[band] = std::llrint(static_cast<double>(state.escaped[band]) / result.done);

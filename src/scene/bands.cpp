@@ -68,6 +68,12 @@ void spread_bands(Scene& scene, std::uint32_t bands, const ValuesKept& kept) {
                    material.reflectance_texture == none && !use.coloured[m], what);
         if (material.own_back && kept.back_transmittance[m])
             spread(material.back_transmittance, true, what);
+        if (material.specular.kind != Specular::Kind::absent) {
+            spread(material.specular.colour,
+                   material.reflectance_texture == none && !use.coloured[m], what);
+            spread(material.specular.grazing, true, what);
+            spread(material.specular.absorption, true, what);
+        }
         if (kept.emission[m])
             spread(material.emission, material.emission_texture == none, what);
     }

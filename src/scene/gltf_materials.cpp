@@ -59,15 +59,14 @@ GltfMaterial GltfMaterials::read(const JsonView& json, const std::string& name) 
     read_base_colour(json, material, result);
     read_emission(json, material, result);
     read_diffuse_transmission(json, material);
-    if (extension(json, "KHR_materials_transmission"))
-        clear_.note(name);
+    read_specular(json, material);
     result.index = add_material(builder_.scene(), std::move(material));
     return result;
 }
 
 void GltfMaterials::read_base_colour(const JsonView& json, Material& material,
                                      GltfMaterial& result) {
-    double factor[4] = {1, 1, 1, 1}, metallic = 1;
+    double factor[4] = {1, 1, 1, 1};
     if (auto pbr = json.find("pbrMetallicRoughness")) {
         if (auto colour = pbr->find("baseColorFactor")) {
             if (colour->size() != 4)
@@ -75,7 +74,6 @@ void GltfMaterials::read_base_colour(const JsonView& json, Material& material,
             for (std::size_t c = 0; c < 4; ++c)
                 factor[c] = colour->at(c).number(0, 1 + 1e-6);
         }
-        metallic = pbr->number_or("metallicFactor", 1);
         if (auto texture = pbr->find("baseColorTexture")) {
             UvSource source;
             material.reflectance_texture = read_texture(*texture, source);
@@ -90,10 +88,71 @@ void GltfMaterials::read_base_colour(const JsonView& json, Material& material,
     }
     if (white && material.reflectance_texture == none)
         white_.note(material.name);
-    if (metallic > 0)
-        metals_.note(material.name);
     if (json.text_or("alphaMode", "OPAQUE") != "OPAQUE" && factor[3] < 0.5)
         transparent_.note(material.name);
+}
+
+// Metals mirror, by Schlick's law from the base colour to white; what is transmitted goes through
+// glass: a body where there is a volume, else a thin sheet. What is left is diffuse; the coat that
+// glTF has on everything else is left out. A material that has no pbrMetallicRoughness says
+// nothing of metal either, though glTF's default is one.
+void GltfMaterials::read_specular(const JsonView& json, Material& material) {
+    double metallic = 0, roughness = 1, transmission = 0;
+    if (auto pbr = json.find("pbrMetallicRoughness")) {
+        metallic = pbr->has("metallicFactor") ? pbr->at("metallicFactor").number(0, 1) : 1;
+        if (pbr->has("roughnessFactor"))
+            roughness = pbr->at("roughnessFactor").number(0, 1);
+        if (metallic > 0 && pbr->has("metallicRoughnessTexture"))
+            plain_metals_.note(material.name);
+    } else {
+        metals_.note(material.name);
+    }
+    const auto through = extension(json, "KHR_materials_transmission");
+    if (through && through->has("transmissionFactor"))
+        transmission = through->at("transmissionFactor").number(0, 1) * (1 - metallic);
+    if (through && through->has("transmissionTexture"))
+        plain_.note(material.name);
+    Specular& s = material.specular;
+    if (metallic <= 0 && transmission <= 0)
+        return;
+    s.colour = material.reflectance;
+    const bool mirror = metallic >= transmission;
+    s.kind = mirror ? Specular::Kind::mirror : Specular::Kind::glass;
+    s.share = static_cast<float>(mirror ? metallic : transmission);
+    if (mirror) {
+        s.grazing = Spectrum::constant(1);
+        s.roughness = static_cast<float>(roughness);
+        if (transmission > 0)
+            both_.note(material.name);
+    } else {
+        read_glass(json, material);
+        if (roughness > 0)
+            smooth_.note(material.name);
+    }
+    if (s.share == 1)
+        material.reflectance = material.transmittance = {};
+}
+
+void GltfMaterials::read_glass(const JsonView& json, Material& material) {
+    Specular& s = material.specular;
+    if (auto index = extension(json, "KHR_materials_ior"); index && index->has("ior"))
+        s.ior = index->at("ior").number(1, 4);
+    s.thin = true;
+    auto volume = extension(json, "KHR_materials_volume");
+    if (volume && volume->has("thicknessFactor"))
+        s.thin = !(volume->at("thicknessFactor").number(0, 1e15) > 0);
+    if (!s.thin && volume->has("attenuationDistance")) {
+        const double distance =
+            volume->at("attenuationDistance").number(1e-15, 1e15) * builder_.settings().scale;
+        auto colour = volume->find("attenuationColor");
+        if (colour && colour->size() != 3)
+            colour->fail("must have three numbers");
+        for (std::size_t c = 0; colour && c < 3; ++c)
+            s.absorption[c] = static_cast<float>(
+                std::min(1e15, -std::log(std::max(1e-30, colour->at(c).number(0, 1))) / distance));
+    }
+    // Light meets it from both sides, whatever the file says of seeing it from behind.
+    material.two_sided = true;
 }
 
 // Of light, the share f is let through, τ = f · colour, and the rest meets the base colour: ρ =
@@ -187,8 +246,11 @@ std::uint32_t GltfMaterials::read_texture(const JsonView& info, UvSource& source
 
 void GltfMaterials::finish() {
     Scene& scene = builder_.scene();
-    metals_.warn(scene, "materials", "are metallic (glTF's default) and taken as diffuse");
-    clear_.warn(scene, "materials", "transmit light and are taken as opaque and diffuse");
+    metals_.warn(scene, "materials", "are metallic by glTF's default alone and taken as diffuse");
+    plain_metals_.warn(scene, "materials",
+                       "are metallic or rough by a picture; their factors alone are used");
+    both_.warn(scene, "materials", "are metallic and transmit; they are taken as metals");
+    smooth_.warn(scene, "materials", "are rough glass and taken as smooth");
     transparent_.warn(scene, "materials", "are mostly transparent and taken as opaque");
     white_.warn(scene, "materials", "have reflectance 1 and are taken as 0.999");
     plain_.warn(scene, "materials", "let light through by a picture; its factor alone is used");

@@ -39,6 +39,8 @@ public:
 private:
     GltfMaterial read(const JsonView& json, const std::string& name);
     void read_base_colour(const JsonView& json, Material& material, GltfMaterial& result);
+    void read_specular(const JsonView& json, Material& material);
+    void read_glass(const JsonView& json, Material& material);
     void read_diffuse_transmission(const JsonView& json, Material& material);
     void read_emission(const JsonView& json, Material& material, GltfMaterial& result);
     std::uint32_t read_texture(const JsonView& info, UvSource& source);
@@ -47,7 +49,7 @@ private:
     SceneBuilder& builder_;
     TextureReader textures_;
     std::map<std::uint64_t, GltfMaterial> known_;  ///< by index; none: the default
-    Tally metals_, clear_, transparent_, white_, plain_, turned_, clamped_;
+    Tally metals_, plain_metals_, both_, smooth_, transparent_, white_, plain_, turned_, clamped_;
 };
 
 }  // namespace parallux

@@ -67,8 +67,8 @@ void ParalluxReader::read_materials() {
     auto list = root_.find("materials");
     for (std::size_t i = 0; list && i < list->size(); ++i) {
         JsonView json = list->at(i);
-        json.only(
-            {"name", "comment", "reflectance", "transmittance", "back", "emission", "two_sided"});
+        json.only({"name", "comment", "reflectance", "transmittance", "back", "emission",
+                   "two_sided", "mirror", "glass"});
         std::string name = json.text_or("name", "material " + std::to_string(i));
         Material m;
         m.name = printable(name);
@@ -86,6 +86,7 @@ void ParalluxReader::read_materials() {
         m.two_sided = json.boolean_or("two_sided", false);
         if (auto back = json.find("back"))
             read_back(*back, m);
+        read_specular(json, m);
         if (const std::string fault = side_fault(m); !fault.empty())
             json.fail(fault);
         if (!materials_.emplace(name, add_material(scene_, std::move(m))).second)
@@ -103,6 +104,46 @@ void ParalluxReader::read_back(const JsonView& json, Material& m) const {
         m.back_reflectance = spectrum(*reflectance, 0, 1);
     if (auto transmittance = json.find("transmittance"))
         m.back_transmittance = spectrum(*transmittance, 0, 1);
+}
+
+// What mirrors or is glass; where that takes all that arrives, nothing is left for a diffuse part.
+void ParalluxReader::read_specular(const JsonView& json, Material& m) const {
+    const auto mirror = json.find("mirror"), glass = json.find("glass");
+    if (!mirror && !glass)
+        return;
+    if (mirror && glass)
+        json.fail("a material is a mirror or glass");
+    const JsonView& part = mirror ? *mirror : *glass;
+    Specular& s = m.specular;
+    s.kind = mirror ? Specular::Kind::mirror : Specular::Kind::glass;
+    if (auto share = part.find("share"))
+        s.share = static_cast<float>(share->number(0, 1));
+    if (mirror) {
+        part.only({"comment", "share", "reflectance", "grazing", "roughness"});
+        s.colour = spectrum(part.at("reflectance"), 0, 1);
+        for (float reflectance : s.colour.value)
+            if (reflectance >= 1)
+                part.at("reflectance").fail("must be less than 1: light would never end");
+        s.grazing = part.has("grazing") ? spectrum(part.at("grazing"), 0, 1) : s.colour;
+        if (auto roughness = part.find("roughness"))
+            s.roughness = static_cast<float>(roughness->number(0, 1));
+    } else {
+        part.only({"comment", "share", "ior", "colour", "absorption", "thin"});
+        s.ior = part.has("ior") ? part.at("ior").number(1, 4) : 1.5;
+        s.colour = part.has("colour") ? spectrum(part.at("colour"), 0, 1) : Spectrum::constant(1);
+        if (auto absorption = part.find("absorption"))
+            s.absorption = spectrum(*absorption, 0, 1e15);
+        s.thin = part.boolean_or("thin", false);
+        m.two_sided = true;
+    }
+    if (s.share == 1) {
+        for (const char* diffuse : {"reflectance", "transmittance", "back"})
+            if (json.has(diffuse))
+                json.at(diffuse).fail(
+                    "the mirror or glass leaves nothing for a diffuse part; "
+                    "give it a share below 1");
+        m.reflectance = {};
+    }
 }
 
 // A material is named, or numbered in the order of the list.

@@ -34,6 +34,7 @@ private:
     Spectrum spectrum(const JsonView& json, double low, double high) const;
     void read_materials();
     void read_back(const JsonView& json, Material& m) const;
+    void read_specular(const JsonView& json, Material& m) const;
     std::uint32_t material(const JsonView& json) const;
     void read_lights();
     void read_cameras();

@@ -82,6 +82,23 @@ Spectrum surface_reflectance(const Scene& scene, std::uint32_t surface, double u
     return rho;
 }
 
+Spectrum surface_tint(const Scene& scene, std::uint32_t surface, double u, double v) {
+    const Material& m = scene.materials[scene.surfaces[surface].material];
+    Spectrum tint = m.specular.colour;
+    multiply_texture(scene, tint, m.reflectance_texture, m.reflectance_uv, surface, u, v);
+    if (!scene.attributes.empty())
+        multiply(scene, tint, affine_at(scene.attributes[surface].colour, u, v));
+    for (float& value : tint.value)
+        value = std::clamp(value, 0.0f, 1.0f);
+    return tint;
+}
+
+bool is_specular(const Scene& scene) {
+    return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& s) {
+        return scene.materials[s.material].specular_share() > 0;
+    });
+}
+
 std::string side_fault(const Material& m) {
     if ((m.own_back || m.is_translucent()) && !m.two_sided)
         return "only what is two-sided has a back or lets light through";

@@ -171,6 +171,10 @@ SensorReadings sense(const Scene& scene, const Patches& patches, const Solution&
     if (is_periodic(scene))
         throw Error(Fault::usage,
                     "sensors gather along rays through one tile: a periodic scene has none");
+    if (!patches.specular.empty())
+        throw Error(Fault::usage,
+                    "sensors gather from diffuse patches alone: a scene with mirrors or glass has "
+                    "none; the table of a patch in their place tells as much");
     const Gather gather(scene, patches, solution, settings);
     SensorReadings readings;
     readings.bands = bands;

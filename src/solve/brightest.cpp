@@ -86,7 +86,7 @@ void shoot_brightest(const Run& run, DirectLight& direct, const BrightestSetting
             shoot_rays(run, emitters, rays,
                        mix64(run.settings.seed + 0x9e3779b97f4a7c15ull * (direct.shots + 1)), done,
                        [&](double) { return !run.listener.stopped(); });
-            run.banks.take_totals(shot, direct.escaped);
+            run.banks.take_totals(shot, direct.escaped, direct.absorbed);
             direct.rays += rays;
         }
         for (std::uint32_t band = 0; band < bands; ++band)

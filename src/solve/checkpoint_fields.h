@@ -20,7 +20,7 @@ void fields_of(Archive& a, DirectLight& d) {
 template <class Archive>
 void fields_of(Archive& a, TransferState& s) {
     a(s.bands), a(s.watts_per_quantum), a(s.emission.quanta), a(s.dither), a(s.sent), a(s.carried);
-    a(s.sky), a(s.emitted), a(s.absorbed), a(s.escaped);
+    a(s.sky), a(s.emitted), a(s.lost), a(s.absorbed), a(s.escaped);
 }
 
 template <class Archive>

@@ -64,7 +64,7 @@ bool few_quanta(const RunState& run, const Patches& patches) {
     for (const auto* row : {&direct.irradiance, &direct.exitance})
         most = std::max(most, quanta_in(*row, patches, run.plan.watts_per_quantum));
     for (const auto* totals :
-         {&state.sent, &state.sky, &state.emitted, &state.absorbed, &state.escaped})
+         {&state.sent, &state.sky, &state.emitted, &state.lost, &state.absorbed, &state.escaped})
         most = std::max(most, unit * quanta_in(*totals));
     // Gathers have quanta of their own, whose sums are taken apart from all these.
     const bool gathers = run.group.stage > Stage::pass;
@@ -72,7 +72,7 @@ bool few_quanta(const RunState& run, const Patches& patches) {
         most = std::max(
             most, gathers ? largest_in(bank.received) : unit * quanta_in(bank, patches.bands));
     for (const WorkerTotals& totals : run.banks.all_totals())
-        for (const auto* row : {&totals.sky, &totals.escaped})
+        for (const auto* row : {&totals.sky, &totals.escaped, &totals.lost})
             most = std::max(most, gathers ? largest_in(*row) : unit * quanta_in(*row));
     return most <= most_quanta;
 }
@@ -95,7 +95,8 @@ bool sound(const TransferState& state, const Group& group, const Patches& patche
         return state.bands == 0;
     const std::size_t values = patches.reflectance.size();
     const std::size_t carried = patches.count() * lanes(patches.bands);
-    for (const auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
+    for (const auto* totals :
+         {&state.sky, &state.emitted, &state.lost, &state.absorbed, &state.escaped})
         if (totals->size() != patches.bands)
             return false;
     const bool passing = group.stage == Stage::pass;

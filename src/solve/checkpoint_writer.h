@@ -12,7 +12,7 @@
 namespace parallux {
 
 inline constexpr FileKind checkpoint_kind = {
-    "PLXRUN\r\n", 1, "a checkpoint", "parallux solve --checkpoint", "solve from the beginning"};
+    "PLXRUN\r\n", 2, "a checkpoint", "parallux solve --checkpoint", "solve from the beginning"};
 
 /// Writes one checkpoint after the other on a thread of its own, aside from the workers: to be made
 /// before them, so that it is not bound to the processor of one.

@@ -92,6 +92,7 @@ void closing_gather(const Run& run, Group& group, std::span<const std::uint32_t>
 
     // A line serves both its ends, whatever the direction of the pass.
     LineSweep sweep(run, state, Direction::bidirectional, unit);
+    sweep.gather();
     const BundleSettings lattice{mix64(run.settings.seed ^ gather_key), plan.gathering,
                                  run.settings.directions, plan.spacing};
     constexpr std::uint64_t at_once = 16;

@@ -19,8 +19,9 @@ namespace {
 void stand_for_all(const Run& run, DirectLight& direct) {
     run.banks.scale(1 / direct.done);
     for (std::uint32_t band = 0; band < run.patches.bands; ++band) {
-        direct.escaped[band] = std::llrint(static_cast<double>(direct.escaped[band]) / direct.done);
-        direct.emitted[band] = direct.escaped[band];
+        for (auto* totals : {&direct.escaped, &direct.absorbed})
+            (*totals)[band] = std::llrint(static_cast<double>((*totals)[band]) / direct.done);
+        direct.emitted[band] = direct.escaped[band] + direct.absorbed[band];
         for (std::size_t patch = 0; patch < run.patches.count(); ++patch)
             direct.emitted[band] += run.banks.received(patch, band);
     }
@@ -47,7 +48,7 @@ void shoot_sources(const Run& run, DirectLight& direct, std::uint64_t& done) {
         direct.rays = run.plan.first_shot_rays;
         direct.done =
             shoot_rays(run, emitters, run.plan.first_shot_rays, run.settings.seed, done, go_on);
-        run.banks.take_totals(direct.emitted, direct.escaped);
+        run.banks.take_totals(direct.emitted, direct.escaped, direct.absorbed);
     }
     if (direct.done < 1)
         stand_for_all(run, direct);

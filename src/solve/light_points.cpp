@@ -9,7 +9,9 @@
 #include "lines/directions.h"
 #include "parallel.h"
 #include "patches/patch_values.h"
+#include "random.h"
 #include "solve/far_shadow.h"
+#include "solve/quanta_sink.h"
 
 namespace parallux {
 
@@ -111,8 +113,78 @@ double light_arrives(const RayScene& rays, const FarShadow& shadow, const Light&
 
 namespace {
 
+// What of a light meets a point of a mirror or glass, and walks on from there.
+struct Beam {
+    glm::dvec3 origin, direction;
+    double flux = 0;  ///< W/m² per unit of the light's intensity
+};
+
+Beam beam_to(const Run& run, const Place& place, const Light& light, Random& random) {
+    if (light.kind != Light::Kind::directional)
+        return {light.position, glm::normalize(place.point - light.position),
+                arrives(place, light)};
+    glm::dvec3 x, y;
+    frame_across(-light.direction, x, y);
+    double square = 0;
+    const glm::dvec2 offset = std::sin(light.half_angle) * uniform_disk(random, square);
+    const double along = std::sqrt(1 - glm::dot(offset, offset));
+    const glm::dvec3 toward = offset.x * x + offset.y * y - along * light.direction;
+    const double flux = glm::dot(place.normal, toward) / along;
+    if (flux <= 0 || !place.sees(toward))
+        return {};
+    return {place.point + 4 * run.plan.sphere.radius * toward, -toward, flux};
+}
+
+// A cell that mirrors, or is glass: what each light sends it walks on from random points of it, as
+// many as its share of the area of all such cells asks for.
+void walk_from_cell(const Run& run, const FarShadow& shadow, std::size_t s, const Cell& cell,
+                    std::uint32_t patch, const glm::dvec3& normal, double cell_area,
+                    double walks_an_area, unsigned worker) {
+    const Scene& scene = run.scene;
+    const std::uint32_t bands = run.patches.bands;
+    const Surface& surface = scene.surfaces[s];
+    const auto walks =
+        static_cast<std::uint64_t>(std::max(1.0, std::ceil(walks_an_area * cell_area)));
+    const QuantaSink sink = bank_sink(run, worker);
+    // Surfaces may share a patch.
+    Random random(mix64(run.settings.seed + s), stream::light_walks + patch);
+    for (std::uint64_t k = 0; k < walks; ++k) {
+        double a = random.uniform(), b = random.uniform();
+        if (surface.shape() == Shape::triangle && a + b > 1) {
+            a = 1 - a;
+            b = 1 - b;
+        }
+        const Place place{
+            *run.rays, surface_point(scene, surface, cell.u0 + a * cell.du, cell.v0 + b * cell.dv),
+            normal,    static_cast<std::uint32_t>(s),
+            0,         shadow};
+        for (const Light& light : scene.lights) {
+            const Beam beam = beam_to(run, place, light, random);
+            if (beam.flux <= 0)
+                continue;
+            const double watts = beam.flux * cell_area / static_cast<double>(walks);
+            Quanta quanta{};
+            for (std::uint32_t band = 0; band < bands; ++band) {
+                quanta[band] =
+                    std::llrint(watts * light.intensity[band] / run.plan.watts_per_quantum);
+                run.banks.totals(worker).sky[band] += quanta[band];
+            }
+            carry(Walk(*run.walks, beam.origin, beam.direction), quanta, bands, random, sink);
+        }
+    }
+}
+
+// Of a group's walks from each light, those a square metre of mirrors and glass.
+double walks_an_area(const Run& run) {
+    double area = 0;
+    for (std::size_t patch = 0; patch < run.patches.specular.size(); ++patch)
+        area += run.patches.specular[patch] > 0 ? run.patches.area[patch] : 0;
+    return area > 0 ? static_cast<double>(run.plan.light_walks) / area : 0;
+}
+
 // A surface's cells, one after the other.
-void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, unsigned worker) {
+void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, double walks,
+                   unsigned worker) {
     const Scene& scene = run.scene;
     const std::uint32_t bands = run.patches.bands;
     const Surface& surface = scene.surfaces[s];
@@ -126,6 +198,11 @@ void light_surface(const Run& run, const FarShadow& shadow, std::size_t s, unsig
             continue;
         const glm::dvec3 normal = first == grid.front ? front : -front;
         for_each_cell(surface.shape(), grid, [&](const Cell& cell) {
+            if (run.patches.specular_share(first + cell.index) > 0) {
+                walk_from_cell(run, shadow, s, cell, first + cell.index, normal, cell_area, walks,
+                               worker);
+                return;
+            }
             double watts[max_bands] = {};
             for (int k = 0; k < points_a_side * points_a_side; ++k) {
                 double a = (k % points_a_side + 0.5) / points_a_side;
@@ -160,6 +237,7 @@ void add_light_points(const Run& run, DirectLight& direct, std::uint64_t& done) 
     if (run.scene.lights.empty())
         return;
     const FarShadow shadow(*run.rays, run.scene);
+    const double walks = walks_an_area(run);
     direct.arrived = true;
     // In slabs of about so many cells, so that the caller is heard now and then.
     constexpr std::uint64_t slab = 1 << 17;
@@ -171,13 +249,13 @@ void add_light_points(const Run& run, DirectLight& direct, std::uint64_t& done) 
         parallel_for(run.plan.threads, end - done, 16,
                      [&](std::size_t first, std::size_t last, unsigned worker) {
                          for (std::size_t s = first; s < last; ++s)
-                             light_surface(run, shadow, done + s, worker);
+                             light_surface(run, shadow, done + s, walks, worker);
                      });
         done = end;
         run.listener.go_on("first shot", static_cast<double>(done) / static_cast<double>(surfaces),
                            0);
     }
-    run.banks.take_totals(direct.emitted, direct.escaped);
+    run.banks.take_totals(direct.emitted, direct.escaped, direct.absorbed);
 }
 
 }  // namespace parallux

@@ -5,6 +5,7 @@
 
 #include "lines/periodic.h"
 #include "parallel.h"
+#include "solve/line_walks.h"
 #include "solve/pass.h"
 
 namespace parallux {
@@ -130,6 +131,17 @@ void LineSweep::each_tile(std::size_t tiles, Follow&& follow) {
 
 void LineSweep::follow_tile(const Projection& projection, std::size_t tile, unsigned worker) {
     Buffers& buffers = buffers_[worker];
+    if (run_.walks) {
+        projector_.lists(projection, tile, *buffers.workspace, buffers.lists);
+        const bool keeping = ways_ && ways_->keeping();
+        LineWalks(run_, state_, gathers_, sky_, worker)
+            .follow(projection, tile, buffers.lists, projector_.centre(),
+                    keeping ? &buffers.pairs : nullptr);
+        if (keeping)
+            ways_->keep(buffers.pairs, std::bit_cast<std::uint64_t>(projection.bundle.direction.x),
+                        worker);
+        return;
+    }
     projector_.pairs(projection, tile, *buffers.workspace, buffers.pairs);
     exchange_tile(projection.bundle.direction, worker);
 }

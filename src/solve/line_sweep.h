@@ -27,6 +27,8 @@ public:
     /// From now on lines are shown to those as well.
     void keep(Ways& ways) { ways_ = &ways; }
     void darken_sky() { sky_ = 0; }
+    /// From now on what is exchanged is what is seen: the same but where something mirrors.
+    void gather() { gathers_ = true; }
 
 private:
     struct Buffers;
@@ -44,6 +46,7 @@ private:
     const TransferState& state_;
     Direction direction_;
     double sky_;
+    bool gathers_ = false;
     Ways* ways_ = nullptr;
     std::vector<Buffers> buffers_;
     Projector projector_;

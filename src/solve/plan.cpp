@@ -45,6 +45,20 @@ void check_periodic(const Scene& scene, const SolveSettings& settings) {
                                           "or surfaces that emit");
 }
 
+// Mirrors and glass are known to bundles with local walks, and to rays.
+void check_specular(const Scene& scene, const SolveSettings& settings) {
+    const char* with = "mirrors and glass are solved by --method bundles, both ways";
+    if (settings.method != Method::bundles || settings.direction != Direction::bidirectional)
+        throw Error(Fault::usage, with);
+    if (settings.first_shot == FirstShot::exact)
+        throw Error(Fault::usage,
+                    "form factors know nothing of mirrors and glass: choose --first-shot rays");
+    if (is_periodic(scene))
+        throw Error(Fault::usage,
+                    "a periodic scene has no mirrors or glass: walks off them know "
+                    "of one tile");
+}
+
 }  // namespace
 
 Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& settings,
@@ -53,6 +67,8 @@ Plan make_plan(const Scene& scene, const Patches& patches, const SolveSettings& 
     const bool periodic = is_periodic(scene);
     if (periodic)
         check_periodic(scene, settings);
+    if (!patches.specular.empty())
+        check_specular(scene, settings);
     check_memory(scene, patches, settings);
     Plan plan;
     plan.trial = trial;

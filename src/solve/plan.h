@@ -23,6 +23,7 @@ struct Plan {
     unsigned threads = 1;
     FirstShot first_shot = FirstShot::off;  ///< of area lights; never automatic
     std::uint64_t first_shot_rays = 0;      ///< of a group
+    std::uint64_t light_walks = 0;          ///< of a group, from lights to mirrors and glass
     bool try_rays = false;                  ///< how many is for a trial to say
     Trial trial;
     double shot_rays = 0;            ///< of a later shot with as much power as all sources have

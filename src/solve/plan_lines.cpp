@@ -24,7 +24,9 @@ std::uint64_t closing_bundles(const Patches& patches, const SolveSettings& setti
     }
     double sent = settings.direction == Direction::oriented ? 0.25 : 0.5;
     double kept = 1 - (1 - reflecting / area) * sent;
-    double wanted = std::ceil(std::log(0.02) / std::log(kept));
+    // What is left over is followed along lines, but about so where walks go on from them.
+    const double remains = patches.specular.empty() ? 0.02 : 0.002;
+    double wanted = std::ceil(std::log(remains) / std::log(kept));
     return static_cast<std::uint64_t>(
         std::min(wanted, std::floor(static_cast<double>(bundles) / 8)));
 }

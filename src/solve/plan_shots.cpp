@@ -49,7 +49,7 @@ std::uint64_t default_rays(const Patches& patches, const Plan& plan) {
 bool is_exact_cheap(const Scene& scene, const Patches& patches, const Plan& plan,
                     std::uint64_t rays) {
     constexpr double rays_a_pair = 25, worth = 4;
-    if (scene.surfaces.size() > ExactShot::few_surfaces)
+    if (scene.surfaces.size() > ExactShot::few_surfaces || !patches.specular.empty())
         return false;
     const double pairs =
         static_cast<double>(count_sources(scene, patches)) * static_cast<double>(patches.count());
@@ -72,7 +72,8 @@ std::uint64_t suitable_rays(const Patches& patches, const Plan& plan) {
 }  // namespace
 
 bool needs_rays(const Scene& scene, const Patches& patches, const SolveSettings& settings) {
-    return settings.method != Method::bundles || !scene.lights.empty() || settings.shots > 0 ||
+    return settings.method != Method::bundles || !patches.specular.empty() ||
+           !scene.lights.empty() || settings.shots > 0 ||
            (emits(patches) && settings.first_shot != FirstShot::off);
 }
 
@@ -103,8 +104,10 @@ void plan_shots(const Scene& scene, const Patches& patches, const SolveSettings&
     if (plan.try_rays && plan.trial.known)
         plan.first_shot_rays = suitable_rays(patches, plan);
     // Shots differ from group to group where there is anything at random in them.
-    plan.shoot_each =
-        plan.first_shot_rays > 0 || plan.first_shot == FirstShot::exact || settings.shots > 0;
+    plan.shoot_each = plan.first_shot_rays > 0 || plan.first_shot == FirstShot::exact ||
+                      settings.shots > 0 || (!patches.specular.empty() && !scene.lights.empty());
+    if (!patches.specular.empty())
+        plan.light_walks = rays;
     if (local)
         plan_local_rays(patches, settings, plan);
 }

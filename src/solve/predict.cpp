@@ -50,6 +50,10 @@ double Prediction::lines_for(double relative_rms) const {
 
 Prediction predict_error(const Scene& scene, const Patches& patches,
                          const SolveSettings& settings) {
+    if (!patches.specular.empty())
+        throw Error(Fault::usage,
+                    "the theory of the error knows nothing of mirrors and glass: solve, and read "
+                    "the error of the run");
     if (is_periodic(scene))
         throw Error(Fault::usage,
                     "--predict is of independent lines, which a periodic scene does not have");

@@ -92,6 +92,7 @@ private:
 };
 
 class ExactShot;
+class Walks;
 struct Regions;
 
 /// What all stages of one solve work on.
@@ -105,6 +106,7 @@ struct Run {
     Listener& listener;
     const ExactShot* exact = nullptr;  ///< null unless first shots are exact
     const Regions* regions = nullptr;  ///< of passes in batches
+    const Walks* walks = nullptr;      ///< null where everything is diffuse
 };
 
 }  // namespace parallux

@@ -6,6 +6,7 @@
 
 #include "parallel.h"
 #include "random.h"
+#include "solve/quanta_sink.h"
 #include "solve/sobol.h"
 
 namespace parallux {
@@ -62,48 +63,83 @@ RayQuanta ray_quanta(const Emitters& emitters, std::uint64_t rays) {
     return quanta;
 }
 
+// A surface's normal, kept from ray to ray: neighbours among them most often leave the same one.
+class LastNormal {
+public:
+    const glm::dvec3& of(const Scene& scene, const Emitter& emitter) {
+        if (!emitter_ || emitter_->surface != emitter.surface || emitter_->back != emitter.back) {
+            emitter_ = &emitter;
+            normal_ = emitter_normal(scene, emitter);
+        }
+        return normal_;
+    }
+
+private:
+    const Emitter* emitter_ = nullptr;
+    glm::dvec3 normal_{0};
+};
+
+class RayShooter {
+public:
+    RayShooter(const Run& run, const Emitters& emitters, std::uint64_t rays, std::uint64_t key)
+        : run_(run),
+          emitters_(emitters),
+          bands_(emitters.bands),
+          key_(key),
+          sobol_(key),
+          quanta_(ray_quanta(emitters, rays)) {}
+
+    // `at`: the share of the power that lies before the place the ray leaves from. What it carries
+    // is counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
+    void shoot(std::uint64_t ray, double at, unsigned worker, LastNormal& normal,
+               const QuantaSink& sink) const {
+        const std::array<double, Sobol::dimensions> p =
+            sobol_.point(static_cast<std::uint32_t>(ray));
+        const std::size_t piece = emitters_.choose(at);
+        const Emitter& emitter = emitters_.pieces[piece];
+        const glm::dvec3 from = point_on(run_.scene, emitter, p[0], p[1]);
+        const glm::dvec3 direction = cosine_direction(normal.of(run_.scene, emitter), p[2], p[3]);
+        const Quanta carried = carried_by(ray, piece);
+        WorkerTotals& totals = run_.banks.totals(worker);
+        for (std::uint32_t band = 0; band < bands_; ++band)
+            totals.sky[band] += carried[band];
+        if (run_.walks) {
+            Random random(key_, stream::shot_walks + ray);
+            return carry(Walk(*run_.walks, from, direction, emitter.surface), carried, bands_,
+                         random, sink);
+        }
+        const SurfaceHit hit = run_.rays->closest(
+            from, direction, std::numeric_limits<double>::infinity(), emitter.surface);
+        const std::uint32_t patch = patch_of(run_.scene, run_.patches, hit);
+        for (std::uint32_t band = 0; band < bands_; ++band)
+            if (patch == none)
+                totals.escaped[band] += carried[band];
+            else
+                run_.banks.receive(worker, patch * std::size_t(bands_) + band, carried[band]);
+    }
+
+private:
+    Quanta carried_by(std::uint64_t ray, std::size_t piece) const {
+        Quanta carried{};
+        for (std::uint32_t band = 0; band < bands_; ++band)
+            carried[band] = quanta_.each[piece * bands_ + band] +
+                            (static_cast<std::int64_t>(ray) < quanta_.rest[band] ? 1 : 0);
+        return carried;
+    }
+
+    const Run& run_;
+    const Emitters& emitters_;
+    const std::uint32_t bands_;
+    const std::uint64_t key_;
+    const Sobol sobol_;
+    const RayQuanta quanta_;
+};
+
 }  // namespace
 
 double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, std::uint64_t key,
                   std::uint64_t& done, const std::function<bool(double)>& go_on) {
-    const Sobol sobol(key);
-    const RayQuanta quanta = ray_quanta(emitters, rays);
-    const std::uint32_t bands = emitters.bands;
-    // The normal of the surface that was last shot from: neighbours among the rays most often have
-    // it in common.
-    struct Last {
-        const Emitter* emitter = nullptr;
-        glm::dvec3 normal{0};
-    };
-    auto normal_of = [&](const Emitter& emitter, Last& last) -> const glm::dvec3& {
-        if (!last.emitter || last.emitter->surface != emitter.surface ||
-            last.emitter->back != emitter.back)
-            last = {&emitter, emitter_normal(run.scene, emitter)};
-        return last.normal;
-    };
-    // `at`: the share of the power that lies before the place the ray leaves from.
-    auto shoot = [&](std::uint64_t ray, double at, unsigned worker, Last& last) {
-        std::array<double, Sobol::dimensions> p = sobol.point(static_cast<std::uint32_t>(ray));
-        std::size_t piece = emitters.choose(at);
-        const Emitter& emitter = emitters.pieces[piece];
-        SurfaceHit hit =
-            run.rays->closest(point_on(run.scene, emitter, p[0], p[1]),
-                              cosine_direction(normal_of(emitter, last), p[2], p[3]),
-                              std::numeric_limits<double>::infinity(), emitter.surface);
-        std::uint32_t patch = patch_of(run.scene, run.patches, hit);
-        // Counted where it was emitted (in `sky`, the totals of what comes in), and where it went.
-        WorkerTotals& totals = run.banks.totals(worker);
-        for (std::uint32_t band = 0; band < bands; ++band) {
-            std::int64_t carried = quanta.each[piece * bands + band] +
-                                   (static_cast<std::int64_t>(ray) < quanta.rest[band] ? 1 : 0);
-            totals.sky[band] += carried;
-            if (patch == none)
-                totals.escaped[band] += carried;
-            else
-                run.banks.receive(worker, patch * std::size_t(bands) + band, carried);
-        }
-    };
-
+    const RayShooter shooter(run, emitters, rays, key);
     // In slabs, so that the caller is heard now and then. The rays of a slab step through the power
     // evenly, so that neighbours leave the same emitter, with a run of the sequence each.
     constexpr std::uint64_t slab = 1 << 18;
@@ -114,10 +150,11 @@ double shoot_rays(const Run& run, const Emitters& emitters, std::uint64_t rays, 
         parallel_for(run.plan.threads, count, 2048,
                      [&](std::size_t begin, std::size_t end, unsigned worker) {
                          DenormalsOff guard;
-                         Last last;
+                         LastNormal normal;
+                         const QuantaSink sink = bank_sink(run, worker);
                          for (std::size_t k = begin; k < end; ++k)
-                             shoot(done + k, (static_cast<double>(k) + offset) * step, worker,
-                                   last);
+                             shooter.shoot(done + k, (static_cast<double>(k) + offset) * step,
+                                           worker, normal, sink);
                      });
         done += count;
         if (!go_on(static_cast<double>(done) / static_cast<double>(rays)))

@@ -85,8 +85,8 @@ std::vector<SmallPatch> small_patches(const Run& run, const TransferState& state
                                       PassResult& pass) {
     const Plan& plan = run.plan;
     const Patches& patches = run.patches;
-    // Local rays know nothing of a scene's copies.
-    if (!run.rays || plan.gathering == 0 || !pass.whole || is_periodic(run.scene))
+    // Local paths know nothing of a scene's copies, nor of mirrors.
+    if (!run.rays || run.walks || plan.gathering == 0 || !pass.whole || is_periodic(run.scene))
         return {};
     const double lines_a_bundle = pi * plan.sphere.radius * plan.sphere.radius / plan.cell;
     const auto most =

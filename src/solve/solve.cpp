@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "lines/periodic.h"
+#include "materials/walk.h"
 #include "parallel.h"
 #include "reference/matrix.h"
 #include "reference/particles.h"
@@ -106,6 +107,9 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     std::unique_ptr<RayScene> rays;
     if (needs_rays(scene, patches, settings))
         rays = std::make_unique<RayScene>(scene, plan.threads);
+    std::unique_ptr<Walks> walks;
+    if (!patches.specular.empty())
+        walks = std::make_unique<Walks>(scene, patches, *rays);
     const Regions regions = make_regions(scene, patches, plan.keeping.regions, plan.keeping.groups);
     Group group;
     Estimate estimate(patches);
@@ -119,7 +123,7 @@ Solution solve(const Scene& scene, const Patches& patches, const SolveSettings& 
     listener.keep_by([&](bool last) { checkpoint.keep(last); });
     Team team(plan.threads);
     SolveSettings own = settings;
-    Run run{scene, patches, own, plan, rays.get(), banks, listener, nullptr, &regions};
+    Run run{scene, patches, own, plan, rays.get(), banks, listener, nullptr, &regions, walks.get()};
     if (group.stage == Stage::trial) {
         if (plan.try_rays && rays)
             plan = make_plan(scene, patches, settings, try_rays(run, group.done));

@@ -47,6 +47,11 @@ void Temperatures::fail(const Row& row, const std::string& what) const {
 
 // Keeps the first band's values alone, and returns ρ + τ.
 float Temperatures::first_band_only(Material& material) const {
+    if (material.specular_share() > 0)
+        input_error(file_, "",
+                    "material \"" + printable(material.name) +
+                        "\" mirrors or is glass, whose emissivity differs by direction; "
+                        "temperatures need one");
     for (Spectrum* values : {&material.reflectance, &material.transmittance,
                              &material.back_reflectance, &material.back_transmittance}) {
         const float first = (*values)[0];

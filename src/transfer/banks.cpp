@@ -23,12 +23,20 @@ Banks::Banks(std::size_t patches, std::uint32_t bands, unsigned workers, std::ui
         bank.received.assign(patches * lanes(bands), 0);
 }
 
-void Banks::receive(unsigned worker, std::size_t k, std::int64_t quanta) {
-    std::int64_t& target = of(worker).received[k / bands_ * lanes(bands_) + k % bands_];
+void Banks::add(unsigned worker, std::size_t lane, std::int64_t value) {
+    std::int64_t& target = of(worker).received[lane];
     if (shared())
-        std::atomic_ref<std::int64_t>(target).fetch_add(quanta, std::memory_order_relaxed);
+        std::atomic_ref<std::int64_t>(target).fetch_add(value, std::memory_order_relaxed);
     else
-        target += quanta;
+        target += value;
+}
+
+void Banks::receive(unsigned worker, std::size_t k, std::int64_t quanta) {
+    add(worker, k / bands_ * lanes(bands_) + k % bands_, quanta);
+}
+
+void Banks::leave(unsigned worker, std::size_t patch) {
+    add(worker, patch * lanes(bands_) + bands_, 1);
 }
 
 std::int64_t Banks::received(std::size_t patch, std::uint32_t band) const {
@@ -38,11 +46,13 @@ std::int64_t Banks::received(std::size_t patch, std::uint32_t band) const {
     return sum;
 }
 
-void Banks::take_totals(std::vector<std::int64_t>& came_in, std::vector<std::int64_t>& escaped) {
+void Banks::take_totals(std::vector<std::int64_t>& came_in, std::vector<std::int64_t>& escaped,
+                        std::vector<std::int64_t>& absorbed) {
     for (WorkerTotals& worker : totals_)
         for (std::uint32_t band = 0; band < bands_; ++band) {
             came_in[band] += std::exchange(worker.sky[band], 0);
             escaped[band] += std::exchange(worker.escaped[band], 0);
+            absorbed[band] += std::exchange(worker.lost[band], 0);
         }
 }
 
@@ -81,6 +91,7 @@ void Banks::collect(unsigned threads) {
         for (std::uint32_t band = 0; band < bands_; ++band) {
             totals_[0].escaped[band] += moved.escaped[band];
             totals_[0].sky[band] += moved.sky[band];
+            totals_[0].lost[band] += moved.lost[band];
         }
     }
 }

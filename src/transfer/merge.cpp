@@ -242,7 +242,9 @@ void merge(TransferState& state, const Patches& patches, const std::vector<Bank>
     state.dither = job.dither_after;
     state.emission.quanta = next.emission;
     for (std::uint32_t band = 0; band < state.bands; ++band) {
-        state.absorbed[band] = 0;
+        for (WorkerTotals& worker : totals)
+            state.lost[band] += std::exchange(worker.lost[band], 0);
+        state.absorbed[band] = state.lost[band];
         for (const MergeTotals& sum : sums) {
             state.absorbed[band] += sum.absorbed[band];
             state.emitted[band] += sum.emitted[band];

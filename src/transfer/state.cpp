@@ -7,7 +7,7 @@ TransferState dark_state(const Patches& patches, double watts_per_quantum) {
     state.bands = patches.bands;
     state.watts_per_quantum = watts_per_quantum;
     state.sent.assign(patches.count() * patches.bands, 0);
-    for (auto* totals : {&state.sky, &state.emitted, &state.absorbed, &state.escaped})
+    for (auto* totals : {&state.sky, &state.emitted, &state.lost, &state.absorbed, &state.escaped})
         totals->assign(patches.bands, 0);
     return state;
 }

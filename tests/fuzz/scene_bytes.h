@@ -15,6 +15,19 @@ inline bool finite(const glm::dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+inline void check_specular(const Specular& specular, std::uint32_t bands) {
+    require(specular.share >= 0 && specular.share <= 1, "0 <= share <= 1");
+    require(specular.roughness >= 0 && specular.roughness <= 1, "0 <= roughness <= 1");
+    require(specular.ior >= 1 && specular.ior <= 4, "1 <= refractive index <= 4");
+    for (std::size_t b = 0; b < bands; ++b) {
+        const float colour = specular.colour[b], grazing = specular.grazing[b];
+        require(colour >= 0 && colour <= 1, "0 <= colour <= 1");
+        require(grazing >= 0 && grazing <= 1, "0 <= grazing <= 1");
+        require(specular.absorption[b] >= 0 && std::isfinite(specular.absorption[b]),
+                "absorption >= 0 and finite");
+    }
+}
+
 inline void check_materials(const Scene& scene) {
     for (const Material& material : scene.materials) {
         for (std::size_t b = 0; b < scene.bands; ++b) {
@@ -22,6 +35,7 @@ inline void check_materials(const Scene& scene) {
             require(reflectance >= 0 && reflectance < 1, "0 <= reflectance < 1");
             require(emission >= 0 && std::isfinite(emission), "emission >= 0 and finite");
         }
+        check_specular(material.specular, scene.bands);
         for (std::uint32_t texture : {material.reflectance_texture, material.emission_texture})
             require(texture == none || texture < scene.textures.size(), "a texture that is there");
         require(material.reflectance_uv < 2 && material.emission_uv < 2, "coordinates 0 or 1");

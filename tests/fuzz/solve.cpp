@@ -61,6 +61,43 @@ SolveSettings settings_of(fuzz::Bytes& bytes) {
     return settings;
 }
 
+// A mirror, rough or not, or glass. Light between perfect ones would not end.
+void make_specular(Material& material, fuzz::Bytes& bytes) {
+    const unsigned kind = bytes.below(16);
+    if (kind > 10)
+        return;
+    Specular& specular = material.specular;
+    specular.kind = kind < 6 ? Specular::Kind::mirror : Specular::Kind::glass;
+    specular.share = static_cast<float>(4 - bytes.below(5)) / 4;
+    specular.colour = Spectrum::constant(static_cast<float>(bytes.below(9)) * 0.12f);
+    specular.grazing = Spectrum::constant(static_cast<float>(bytes.below(9)) * 0.125f);
+    specular.roughness = kind == 0 ? static_cast<float>(bytes.below(5)) * 0.25f : 0;
+    specular.ior = bytes.real(1, 4);
+    specular.absorption[0] = static_cast<float>(bytes.below(3));
+    specular.thin = kind % 2 == 0;
+    if (specular.kind == Specular::Kind::glass)
+        material.two_sided = true;
+    if (specular.share == 1)
+        material.reflectance = {};
+}
+
+// Behind all else, so that inputs without these bytes mean what they did.
+void make_specular(Scene& scene, SolveSettings& settings, fuzz::Bytes& bytes) {
+    if (bytes.empty())
+        return;
+    for (Material& material : scene.materials)
+        make_specular(material, bytes);
+    if (bytes.below(8) == 0)
+        return;
+    // Most often as it can be solved.
+    settings.method = Method::bundles;
+    settings.direction = Direction::bidirectional;
+    settings.bundles = 1 + bytes.below(24);
+    settings.shots = bytes.below(3);
+    if (settings.first_shot == FirstShot::exact)
+        settings.first_shot = FirstShot::rays;
+}
+
 void check(const Patches& patches, const Solution& solution) {
     for (std::size_t k = 0; k < patches.count() * patches.bands; ++k) {
         const float b = solution.radiosity[k], h = solution.irradiance[k], e = patches.emission[k];
@@ -80,7 +117,8 @@ void check(const Patches& patches, const Solution& solution) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::Bytes bytes(data, size);
     SolveSettings settings = settings_of(bytes);
-    const Scene scene = scene_of(bytes);
+    Scene scene = scene_of(bytes);
+    make_specular(scene, settings, bytes);
     fuzz::ends_well({Fault::usage, Fault::input, Fault::memory}, [&] {
         const Patches patches = make_patches(scene, {.count = 32});
         settings.threads = 1;
