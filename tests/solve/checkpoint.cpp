@@ -197,6 +197,29 @@ TEST_CASE("interrupted anywhere and resumed on other threads: the same bits") {
     std::filesystem::remove(file);
 }
 
+// Found by a crash of the program in tests/faults/kill.sh. Planted, seen to fail: no stage before
+// the first one that is told.
+TEST_CASE("a run that is taken up within a later group's first shot tells of a stage") {
+    Kind kind{"", room(grey(0.5, 1), 1), {}};
+    kind.settings.bundles = 64;
+    kind.settings.groups = 2;
+    kind.settings.first_shot = FirstShot::rays;
+    kind.settings.first_shot_rays = 1000;
+    const Patches patches = make_patches(kind.scene);
+    const std::uint64_t count = answers(kind, patches);
+    for (std::uint64_t at = 0; at < count; ++at) {
+        SolveSettings first = kind.settings, second = kind.settings;
+        first.checkpoints.file = second.checkpoints.resume = file;
+        std::uint64_t calls = 0;
+        solve(kind.scene, patches, first, [&](const Progress&) { return calls++ != at; });
+        solve(kind.scene, patches, second, [](const Progress& progress) {
+            REQUIRE(progress.stage != nullptr);
+            return *progress.stage != 0;
+        });
+    }
+    std::filesystem::remove(file);
+}
+
 // Planted, seen to fail: a resumed run that forgets the rounds before.
 TEST_CASE("interrupted over and over, kept in one file: the same bits") {
     for (std::size_t which : {0u, 3u, 6u}) {
