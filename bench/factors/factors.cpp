@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -28,6 +29,7 @@ constexpr std::size_t few_facets = 2000;
 struct Options {
     std::string scene, json;
     std::vector<std::uint64_t> bundles{64, 256, 1024, 4096}, solve{64, 256, 1024, 4096};
+    std::vector<double> lines_per_patch{0};
     std::vector<std::uint64_t> lines;
     std::vector<std::uint32_t> rays{16, 64, 256, 1024};
     std::uint64_t reference = 8192;
@@ -123,8 +125,10 @@ int run(const Options& options) {
         print_row(rows.back());
     };
     print_heading();
-    for (std::uint64_t bundles : options.bundles)
-        take("bundles", bundles, by_bundles(scene, patches, bundles, 1, 1, SkyFrom::automatic));
+    for (double lines : options.lines_per_patch)
+        for (std::uint64_t bundles : options.bundles)
+            take(lines > 0 ? "bundles-" + std::to_string(std::lround(lines)) : "bundles", bundles,
+                 by_bundles(scene, patches, bundles, 1, 1, SkyFrom::automatic, lines));
     for (std::uint64_t bundles : options.lines)
         take("lines", bundles, by_bundles(scene, patches, bundles, 1, 1, SkyFrom::lines));
     for (std::uint32_t rays : options.rays)
@@ -149,6 +153,8 @@ int main(int argc, char** argv) {
     app.add_option("--scene", options.scene, "A scene of triangles");
     app.add_option("--json", options.json, "Where to write the rows");
     app.add_option("--bundles", options.bundles, "Lengths of bundles")->delimiter(',');
+    app.add_option("--lines-per-patch", options.lines_per_patch, "Of bundles; 0: chosen")
+        ->delimiter(',');
     app.add_option("--lines", options.lines, "The same with all sky factors from lines")
         ->delimiter(',');
     app.add_option("--rays", options.rays, "Rays a facet")->delimiter(',');

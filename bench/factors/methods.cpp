@@ -66,7 +66,7 @@ Place place_of(const glm::dvec3 corner[3], const glm::dvec3 frame[3],
 }  // namespace
 
 Answer by_bundles(const Scene& scene, const Patches& patches, std::uint64_t bundles,
-                  std::uint64_t seed, unsigned threads, SkyFrom sky_from) {
+                  std::uint64_t seed, unsigned threads, SkyFrom sky_from, double lines_per_patch) {
     const auto start = Clock::now();
     FactorSettings settings;
     settings.bundles = bundles;
@@ -74,6 +74,7 @@ Answer by_bundles(const Scene& scene, const Patches& patches, std::uint64_t bund
     settings.threads = threads;
     settings.groups = 1;
     settings.sky_from = sky_from;
+    settings.lines_per_patch = lines_per_patch;
     Factors factors = view_factors(scene, patches, settings);
     Answer answer;
     for (std::size_t i = 0; i < factors.nodes.size(); ++i) {

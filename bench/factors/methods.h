@@ -20,10 +20,11 @@ struct Answer {
     double seconds = 0;  ///< of the processor, all of it
 };
 
-/// Our bundles, counted, closed and reciprocal; then the reflections. `sky_from`: as in
-/// FactorSettings.
+/// Our bundles, counted, closed and reciprocal; then the reflections. `sky_from` and
+/// `lines_per_patch`: as in FactorSettings.
 Answer by_bundles(const Scene& scene, const Patches& patches, std::uint64_t bundles,
-                  std::uint64_t seed, unsigned threads, SkyFrom sky_from);
+                  std::uint64_t seed, unsigned threads, SkyFrom sky_from,
+                  double lines_per_patch = 0);
 
 /// Puts sky factors of triangles from 400 points each, 25 in each sixteenth, in the place of those
 /// of `answer`, and reflects anew.

@@ -121,9 +121,10 @@ struct Filler {
         if (surface.is_curved())
             return fill_half(view);
         const Projection::Corner* p[4];
-        for (std::size_t k = 0; k < 4; ++k)  // a triangle has its last corner twice
-            p[k] = &tile.projection
-                        .corners[surface.corner[k == 3 && surface.corner[3] == none ? 2 : k]];
+        for (int k = 0; k < 3; ++k)
+            p[k] = &tile.projection.corners[surface.corner[k]];
+        p[3] =
+            &tile.projection.corners[surface.corner_v()];  // a triangle has its last corner twice
         const Rectangle box = rectangle_of(tile.projection, surface);
         if (box.right - box.left <= small_extent && box.bottom - box.top <= small_extent &&
             turn_of(tile.projection, surface) != 0 && fits(p))

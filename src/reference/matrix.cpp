@@ -177,7 +177,8 @@ std::vector<double> CountedLines::irradiance_through(const std::vector<double>& 
         return std::vector<double>(result.data(), result.data() + n);
     };
     const Vector first = (arriving(emission) + sky).cwiseQuotient(exits);
-    return bicgstab(times, {first.data(), first.data() + n}, 1e-13, 10000);
+    return bicgstab(times, {first.data(), first.data() + n}, 10000,
+                    [](const std::vector<double>&, double left) { return left <= 1e-13; });
 }
 
 std::vector<double> CountedLines::irradiance(const std::vector<double>& emission,

@@ -25,13 +25,13 @@ Values plus(Values a, double s, const Values& b) {
 
 }  // namespace
 
-Values bicgstab(const std::function<Values(const Values&)>& times, const Values& b, double enough,
-                int steps) {
+Values bicgstab(const std::function<Values(const Values&)>& times, const Values& b, int steps,
+                const std::function<bool(const Values&, double)>& over) {
     Values x(b.size(), 0), best = x, residual = b, search = b;
     const Values shadow = b;
     double rho = dot(shadow, residual), least = rho;
-    const double wanted = enough * enough * rho;
-    for (int step = 0; step < steps && least > wanted; ++step) {
+    const double all = rho;
+    for (int step = 0; step < steps && least > 0; ++step) {
         const Values v = times(search);
         const double alpha = rho / dot(shadow, v);
         const Values half = plus(residual, -alpha, v), t = times(half);
@@ -45,6 +45,8 @@ Values bicgstab(const std::function<Values(const Values&)>& times, const Values&
             least = left;
             best = x;
         }
+        if (over(x, std::sqrt(left / all)))
+            return x;
         const double next = dot(shadow, residual);
         search = plus(residual, next / rho * alpha / omega, plus(search, -omega, v));
         rho = next;

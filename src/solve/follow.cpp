@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "parallux/scene.h"
+#include "solve/settled.h"
 
 namespace parallux {
 
 namespace {
 
-// Of all that is to come, in the energy norm, and the steps that it is judged by.
-constexpr double enough = 1e-3;
-constexpr int judged = 4, most_steps = 500;
+constexpr int most_steps = 500;
 
 using Values = std::vector<double>;
 using Sums = std::array<double, max_bands>;
@@ -49,6 +48,12 @@ public:
         for (std::size_t k = 0; k < values.size(); ++k)
             values[k] *= scale_[k];
         return values;
+    }
+    // n T y: what regions reflect of what they are to receive.
+    Values reflected(Values y) const {
+        for (std::size_t k = 0; k < y.size(); ++k)
+            y[k] *= scale_[k] * ways_.exits[k / bands_];
+        return y;
     }
     Values times(const Values& y) const {
         Values result = scaled(neighbours(scaled(y)));
@@ -96,35 +101,8 @@ private:
     Values even_;
 };
 
-// Adds up by how much each step shortens the error: the sum of the last ones is nearly all of what
-// was left before them. Each band ends by itself, as if it were alone.
-class Progress {
-public:
-    void step(const Sums& shortened) {
-        last_[steps_++ % judged] = shortened;
-        for (std::uint32_t band = 0; band < max_bands; ++band)
-            all_[band] += shortened[band];
-    }
-    bool over(std::uint32_t band) const {
-        double left = 0;
-        for (const Sums& last : last_)
-            left += last[band];
-        return steps_ >= most_steps || (steps_ >= judged && left <= enough * enough * all_[band]);
-    }
-    bool all_over(std::uint32_t bands) const {
-        for (std::uint32_t band = 0; band < bands; ++band)
-            if (!over(band))
-                return false;
-        return true;
-    }
-
-private:
-    std::array<Sums, judged> last_{};
-    Sums all_{};
-    int steps_ = 0;
-};
-
-Values conjugate_gradients(const System& system, const Lead& lead, Values residual) {
+Values conjugate_gradients(const System& system, const Lead& lead, Values residual,
+                           Settled& settled) {
     const std::uint32_t bands = system.bands();
     auto led = [&] {
         Values direction = residual;
@@ -133,14 +111,12 @@ Values conjugate_gradients(const System& system, const Lead& lead, Values residu
     };
     Values y(residual.size(), 0), search = led();
     Sums rest = products(residual, search, bands);
-    for (Progress progress; !progress.all_over(bands);) {
+    for (int steps = 0; steps < most_steps && !settled.all_over(); ++steps) {
         const Values applied = system.times(search);
         const Sums bent = products(search, applied, bands);
-        Sums step{}, shortened{};
-        for (std::uint32_t band = 0; band < bands; ++band) {
-            step[band] = bent[band] > 0 && !progress.over(band) ? rest[band] / bent[band] : 0;
-            shortened[band] = step[band] * rest[band];
-        }
+        Sums step{};
+        for (std::uint32_t band = 0; band < bands; ++band)
+            step[band] = bent[band] > 0 && !settled.over(band) ? rest[band] / bent[band] : 0;
         for (std::size_t k = 0; k < y.size(); ++k) {
             y[k] += step[k % bands] * search[k];
             residual[k] -= step[k % bands] * applied[k];
@@ -152,7 +128,7 @@ Values conjugate_gradients(const System& system, const Lead& lead, Values residu
             search[k] = next[k] + (before > 0 ? now[k % bands] / before : 0) * search[k];
         }
         rest = now;
-        progress.step(shortened);
+        settled.step(system.reflected(y));
     }
     return y;
 }
@@ -160,9 +136,9 @@ Values conjugate_gradients(const System& system, const Lead& lead, Values residu
 }  // namespace
 
 std::vector<double> follow(const RegionWays& ways, const std::vector<double>& reflectance,
-                           const std::vector<double>& unshot, std::uint32_t bands,
-                           const std::vector<std::uint32_t>& group, const GroupSystem& groups,
-                           unsigned threads) {
+                           const std::vector<double>& unshot, const std::vector<double>& received,
+                           std::uint32_t bands, const std::vector<std::uint32_t>& group,
+                           const GroupSystem& groups, unsigned threads) {
     const System system(ways, reflectance, bands, threads);
     const Lead lead(ways, reflectance, bands, group, groups);
     // x = N (u / n + T y): one more product in the end, so that ρ = 0 needs no division.
@@ -170,11 +146,15 @@ std::vector<double> follow(const RegionWays& ways, const std::vector<double>& re
     for (std::size_t k = 0; k < per_line.size(); ++k)
         per_line[k] = ways.exits[k / bands] > 0 ? unshot[k] / ways.exits[k / bands] : 0;
     const Values first = system.neighbours(per_line);
-    const Values y = conjugate_gradients(system, lead, system.scaled(first));
-    Values received = system.neighbours(system.scaled(y));
-    for (std::size_t k = 0; k < received.size(); ++k)
-        received[k] += first[k];
-    return received;
+    Values known = received;
+    for (std::size_t k = 0; k < known.size(); ++k)
+        known[k] *= reflectance[k];
+    Settled settled(known, group, bands);
+    const Values y = conjugate_gradients(system, lead, system.scaled(first), settled);
+    Values to_come = system.neighbours(system.scaled(y));
+    for (std::size_t k = 0; k < to_come.size(); ++k)
+        to_come[k] += first[k];
+    return to_come;
 }
 
 }  // namespace parallux

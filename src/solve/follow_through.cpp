@@ -1,6 +1,7 @@
 #include "solve/follow_through.h"
 
 #include "solve/bicgstab.h"
+#include "solve/settled.h"
 
 namespace parallux {
 
@@ -38,7 +39,11 @@ Values follow_through(const Through& through, const Values& unshot) {
             result[k] = x[k] - result[k];
         return result;
     };
-    return bicgstab(times, arriving(through, unshot), 1e-6, 500);
+    Settled settled(through.received, through.group, through.bands);
+    return bicgstab(times, arriving(through, unshot), 500, [&](const Values& x, double) {
+        settled.step(x);
+        return settled.all_over();
+    });
 }
 
 }  // namespace parallux

@@ -19,7 +19,8 @@ struct Crossing {
 /// What becomes of light between regions, or groups of them. Arrays region · bands + band.
 struct Through {
     std::uint32_t bands;
-    std::vector<double> reflectance;
+    std::vector<double> reflectance, received;  ///< received: before
+    std::vector<std::uint32_t> group;           ///< of each region
     std::vector<Crossing> crossings;
     std::vector<std::uint32_t> exits;  ///< lines that leave each region
     /// Σ over the lines that join a region with others of what those carry.
@@ -27,7 +28,7 @@ struct Through {
 };
 
 /// x = P (u + S x): as GroupSystem has it, where S takes light through surfaces and the system is
-/// not symmetric. By Bi-CGSTAB, to a millionth of the first bounce.
+/// not symmetric. By Bi-CGSTAB, to some thousandths of all that each group receives (Settled).
 std::vector<double> follow_through(const Through& through, const std::vector<double>& unshot);
 
 }  // namespace parallux

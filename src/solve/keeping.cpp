@@ -40,10 +40,10 @@ Keeping keeping_of(std::size_t patches, double pairs, std::uint64_t bundles) {
 
 std::uint64_t keeping_bytes(std::size_t patches, std::uint32_t bands) {
     // Strides are whole numbers: up to twice as many pairs may be kept. Both ends of each in the
-    // table; some ten values a region and band; the system between groups.
+    // table; some thirteen values a region and band; the system between groups.
     const std::uint64_t regions = regions_of(patches), groups = groups_of(patches);
     const auto pairs = static_cast<std::uint64_t>(1.5 * pairs_of(regions, region_exits));
-    return patches * 4 + pairs * 16 + regions * (bands * 80 + 16) +
+    return patches * 4 + pairs * 16 + regions * (bands * 104 + 16) +
            groups * groups * (bands * 8 + 12);
 }
 

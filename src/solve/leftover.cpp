@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "solve/follow.h"
@@ -169,9 +170,12 @@ Leftover::Spread Leftover::spread_through(const TransferState& state, const Bank
                         between.lines[from * n + to] * values[from * bands + band];
         return sums;
     };
-    std::vector<double> to_come = follow_through(
-        {bands, groups.reflectance(), groups.crossings(bands), between.exits, neighbours},
-        groups.unshot);
+    std::vector<std::uint32_t> each(n);
+    std::iota(each.begin(), each.end(), 0u);
+    std::vector<double> to_come =
+        follow_through({bands, groups.reflectance(), groups.received, each, groups.crossings(bands),
+                        between.exits, neighbours},
+                       groups.unshot);
     spread.fine = much_to_come(groups.received, to_come, bands);
     to_come = evened(std::move(to_come), between.exits, groups.area, bands);
     spread.to_come.resize(std::size_t(regions_.count) * bands);
@@ -187,8 +191,8 @@ Leftover::Spread Leftover::spread_through(const TransferState& state, const Bank
         between_regions.add_neighbours(values, bands, threads_, sums);
         return sums;
     };
-    to_come = evened(follow_through({bands, regions.reflectance(), regions.crossings(bands),
-                                     between_regions.exits, of_regions},
+    to_come = evened(follow_through({bands, regions.reflectance(), regions.received, regions_.group,
+                                     regions.crossings(bands), between_regions.exits, of_regions},
                                     regions.unshot),
                      between_regions.exits, regions.area, bands);
     for (std::size_t r = 0; r < spread.to_come.size(); ++r)
@@ -220,8 +224,8 @@ Leftover::Spread Leftover::spread(const TransferState& state, const Banks& banks
     // From patch to patch.
     const Sums regions = sums(state, banks, all_of_a_region);
     const RegionWays between_regions = ways.between_regions();
-    to_come = evened(follow(between_regions, regions.reflectance(), regions.unshot, bands,
-                            regions_.group, between, threads_),
+    to_come = evened(follow(between_regions, regions.reflectance(), regions.unshot,
+                            regions.received, bands, regions_.group, between, threads_),
                      between_regions.exits, regions.area, bands);
     for (std::size_t r = 0; r < spread.to_come.size(); ++r)
         if (spread.fine[r % bands])

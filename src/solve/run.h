@@ -83,7 +83,7 @@ public:
 private:
     const ProgressCallback& callback_;
     double time_limit_;
-    const char* stage_ = nullptr;
+    const char* stage_ = "bundles";  // a run may be taken up within a later group's first shot
     Watch total_, stage_watch_, last_;
     double from_ = 0, to_ = 1;
     std::uint64_t lines_ = 0, lines_before_ = 0;

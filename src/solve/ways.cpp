@@ -1,20 +1,29 @@
 #include "solve/ways.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "parallel.h"
 #include "random.h"
+#include "transfer/for_bands.h"
 
 namespace parallux {
 
 void RegionWays::add_neighbours(const std::vector<double>& values, std::uint32_t bands,
                                 unsigned threads, std::vector<double>& sums) const {
-    parallel_for(threads, regions(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
-        for (std::size_t from = begin; from < end; ++from)
-            for (std::uint32_t k = start[from]; k < start[from + 1]; ++k)
-                for (std::uint32_t band = 0; band < bands; ++band)
-                    sums[from * bands + band] += values[to[k] * std::size_t(bands) + band];
+    for_bands(bands, [&](auto constant) {
+        constexpr std::size_t count = constant();
+        parallel_for(threads, regions(), 1024, [&](std::size_t begin, std::size_t end, unsigned) {
+            for (std::size_t from = begin; from < end; ++from) {
+                std::array<double, count> sum{};
+                for (std::uint32_t k = start[from]; k < start[from + 1]; ++k)
+                    for (std::size_t band = 0; band < count; ++band)
+                        sum[band] += values[to[k] * count + band];
+                for (std::size_t band = 0; band < count; ++band)
+                    sums[from * count + band] += sum[band];
+            }
+        });
     });
 }
 

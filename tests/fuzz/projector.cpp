@@ -7,6 +7,7 @@
 #include "lines/ray_scene.h"
 #include "made_scene.h"
 #include "parallux/patches.h"
+#include "support/tile_line.h"
 
 // The projector on surfaces of every kind: parity of closed solids, order of hits, the pairs that
 // both its ways give, and the tracer's hits on the same lines.
@@ -15,11 +16,6 @@ using namespace parallux;
 using fuzz::require;
 
 namespace {
-
-struct Line {
-    glm::dvec3 origin;
-    double x, y;  // across, in spacings
-};
 
 // Everything that is judged of one bundle.
 class Judge {
@@ -46,8 +42,8 @@ public:
             listed.add(pairs);
             painted.add(pairs_of(projector_, projection, tile, *workspace));
             for (std::size_t k = 0; k < lists.lines(); ++k)
-                judge_line(line(projection, tile, k), lists.hits.data() + lists.start[k],
-                           lists.start[k + 1] - lists.start[k]);
+                judge_line(test::tile_line(projector_, projection, bundle_, tile, k),
+                           lists.hits.data() + lists.start[k], lists.start[k + 1] - lists.start[k]);
         }
         // Its tiles are of another size.
         for (std::size_t tile = 0; tile < layers.tiles(); ++tile)
@@ -95,24 +91,8 @@ private:
                 "the same pairs from lists and pairs");
     }
 
-    Line line(const Projection& projection, std::size_t tile, std::size_t k) const {
-        const std::int32_t left =
-            projection.left + std::int32_t(tile % projection.tiles_x) * projection.tile_columns;
-        const std::int32_t top =
-            projection.top + std::int32_t(tile / projection.tiles_x) * projection.tile_rows;
-        const std::int32_t columns =
-            std::min(projection.tile_columns, projection.left + projection.columns - left);
-        Line line;
-        line.x = left + double(std::int32_t(k) % columns) - bundle_.offset_x;
-        line.y = top + double(std::int32_t(k) / columns) - bundle_.offset_y;
-        line.origin = projector_.centre() +
-                      bundle_.spacing * (line.x * bundle_.x + line.y * bundle_.y) -
-                      2.0 * projector_.radius() * bundle_.direction;
-        return line;
-    }
-
     // In spacings, from a line to the nearest edge of a surface as the bundle sees it.
-    double to_edge(const Line& line) const {
+    double to_edge(const test::TileLine& line) const {
         double nearest = 1e300;
         auto across = [&](std::uint32_t corner) {
             const glm::dvec3 p = (scene_.positions[corner] - projector_.centre()) / bundle_.spacing;
@@ -144,7 +124,7 @@ private:
                1e-5 * projector_.radius();
     }
 
-    void judge_line(const Line& line, const Hit* hits, std::size_t count) {
+    void judge_line(const test::TileLine& line, const Hit* hits, std::size_t count) {
         if (closed_)
             require(count % 2 == 0, "an even number of hits in closed solids");
         for (std::size_t k = 1; k < count; ++k)

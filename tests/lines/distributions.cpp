@@ -32,7 +32,8 @@ public:
     }
     /// χ² in standard deviations from its mean; the draws must be independent.
     double excess() const {
-        const double expected = draws_ / double(counts_.size()), freedom = counts_.size() - 1.0;
+        const auto cells = static_cast<double>(counts_.size());
+        const double expected = draws_ / cells, freedom = cells - 1;
         double chi = 0;
         for (double count : counts_)
             chi += (count - expected) * (count - expected) / expected;

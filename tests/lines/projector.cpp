@@ -11,6 +11,7 @@
 #include "random.h"
 #include "support/hand_made.h"
 #include "support/statistics.h"
+#include "support/tile_line.h"
 
 using namespace parallux;
 using namespace parallux::test;
@@ -137,18 +138,9 @@ TEST_CASE("projector and tracer find the same hits on the same lines") {
             }
         for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
             projector.lists(projection, tile, *workspace, lists);
-            std::int32_t left =
-                projection.left + std::int32_t(tile % projection.tiles_x) * projection.tile_columns;
-            std::int32_t top =
-                projection.top + std::int32_t(tile / projection.tiles_x) * projection.tile_rows;
-            std::int32_t columns =
-                std::min(projection.tile_columns, projection.left + projection.columns - left);
             for (std::size_t line = 0; line < lists.lines(); ++line) {
-                double x = left + double(line % columns) - bundle.offset_x;
-                double y = top + double(line / columns) - bundle.offset_y;
-                glm::dvec3 origin = projector.centre() +
-                                    bundle.spacing * (x * bundle.x + y * bundle.y) -
-                                    2.0 * projector.radius() * bundle.direction;
+                const glm::dvec3 origin =
+                    tile_line(projector, projection, bundle, tile, line).origin;
                 rays.all(origin, bundle.direction, 10, hits);
                 bool same = hits.size() == lists.start[line + 1] - lists.start[line];
                 for (std::size_t k = 0; same && k < hits.size(); ++k) {

@@ -9,6 +9,7 @@
 #include "parallux/lines.h"
 #include "random.h"
 #include "support/hand_made.h"
+#include "support/tile_line.h"
 
 // Surfaces in one place: rays meet them in the order of a bundle's lines.
 
@@ -93,12 +94,6 @@ void compare(const Scene& scene, const Projector& projector, const RayScene& ray
     std::vector<SurfaceHit> hits;
     for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
         projector.lists(projection, tile, *workspace, lists);
-        const std::int32_t left =
-            projection.left + std::int32_t(tile % projection.tiles_x) * projection.tile_columns;
-        const std::int32_t top =
-            projection.top + std::int32_t(tile / projection.tiles_x) * projection.tile_rows;
-        const std::int32_t columns =
-            std::min(projection.tile_columns, projection.left + projection.columns - left);
         for (std::size_t k = 0; k < lists.lines(); ++k) {
             std::vector<std::uint32_t> expected;
             bool shared = false;
@@ -109,11 +104,7 @@ void compare(const Scene& scene, const Projector& projector, const RayScene& ray
             }
             if (expected.empty())
                 continue;
-            const double x = left + double(std::int32_t(k) % columns) - bundle.offset_x;
-            const double y = top + double(std::int32_t(k) / columns) - bundle.offset_y;
-            const glm::dvec3 origin = projector.centre() +
-                                      bundle.spacing * (x * bundle.x + y * bundle.y) -
-                                      2.0 * projector.radius() * bundle.direction;
+            const glm::dvec3 origin = tile_line(projector, projection, bundle, tile, k).origin;
             rays.all(origin, bundle.direction, 1e9, hits);
             ++tally.lines;
             tally.shared += shared;

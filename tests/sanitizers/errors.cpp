@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
         banks.receive(0, 0, std::numeric_limits<std::int64_t>::max());
         banks.receive(0, 0, 1);
     } else if (std::strcmp(kind, "leak") == 0) {
-        Banks* volatile lost = new Banks(1 << 16, 1, 1, 1 << 30);
+        [[maybe_unused]] Banks* volatile lost = new Banks(1 << 16, 1, 1, 1 << 30);
         lost = nullptr;
     } else if (std::strcmp(kind, "race") == 0) {
         parallel_for(2, 1 << 16, 16, [&](std::size_t begin, std::size_t end, unsigned) {

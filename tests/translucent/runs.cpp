@@ -110,7 +110,11 @@ TEST_CASE("leftover light is followed through surfaces") {
     Random random(5, 2);
     auto below = [&] { return static_cast<std::uint32_t>(random.uniform() * n); };
     Eigen::MatrixXd lines = Eigen::MatrixXd::Zero(n, n);
-    Through through{bands, {}, {}, std::vector<std::uint32_t>(n, 0), {}};
+    Through through;
+    through.bands = bands;
+    through.received.assign(n * bands, 0);
+    through.group.assign(n, 0);
+    through.exits.assign(n, 0);
     for (int line = 0; line < 2000; ++line) {
         const std::uint32_t a = below(), b = below();
         ++lines(a, b), ++lines(b, a);
