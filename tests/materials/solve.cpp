@@ -78,7 +78,7 @@ TEST_CASE("a furnace with mirrors and glass stays a furnace") {
 
 TEST_CASE("a furnace in a sphere, with spheres that mirror and of glass, stays a furnace") {
     // Walls, mirrors and glass see themselves. Fails when a walk leaves out all of the surface that
-    // it leaves (planted: `near` beyond the sphere), or takes a curved surface's one normal for
+    // it leaves (tests/planted/curved_skip.patch), or takes a curved surface's one normal for
     // all.
     Scene scene;
     scene.bands = 1;

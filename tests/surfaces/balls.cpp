@@ -56,8 +56,7 @@ void for_each_line(const Projector& projector, const Bundle& bundle, Visit&& vis
 }  // namespace
 
 TEST_CASE("spheres are met where rays meet them, in the same cells") {
-    // Fails (planted) when the halves are taken for each other, when `turned` is left out of the
-    // cells, or when `before` and `beyond` of a row are.
+    // Planted: tests/planted/ball_*.patch.
     const Scene scene = crowded();
     const Patches patches = make_patches(scene);
     const Projector projector(scene, patches);
@@ -146,8 +145,7 @@ TEST_CASE("a sphere in facets is nearly the sphere itself") {
 }
 
 TEST_CASE("painted and layered tiles of spheres have the very pairs of the ordered lists") {
-    // Fails when a half's depth or cell is not the same one line at a time and many (planted: the
-    // sphere's centre as a float).
+    // Fails when a half's depth or cell is not the same one line at a time and many.
     for (double lines : {9.0, 70.0, 400.0}) {
         std::size_t pairs = 0;
         compare(crowded(), lines, pairs, 30);
@@ -157,8 +155,7 @@ TEST_CASE("painted and layered tiles of spheres have the very pairs of the order
 }
 
 TEST_CASE("of 10^7 lines none meets a solid an odd number of times") {
-    // Fails as the test with lists does (planted: take() left out of the facets, the far half's
-    // rows rounded the other way).
+    // Planted: tests/planted/curved_rims.patch.
     for (const Solid& solid : solids) {
         CAPTURE(solid.name);
         const Scene scene = curved_scene(solid.surfaces);
@@ -185,8 +182,7 @@ TEST_CASE("of 10^7 lines none meets a solid an odd number of times") {
 }
 
 TEST_CASE("rays and lines meet a disk and the plane that it lies in, in one order") {
-    // A drum on a floor, a lamp on a ceiling. Fails when disks are left out of SharedPlaces
-    // (planted).
+    // A drum on a floor, a lamp on a ceiling. Planted: tests/planted/disk_alone.patch.
     const Scene scene = curved_scene(
         R"({"parallelogram": [[-2, -2, 0], [4, 0, 0], [0, 4, 0]], "grid": [3, 3]},
            {"disk": {"centre": [0.1, 0.2, 0], "normal": [0, 0, -1], "radius": 0.8}, "grid": [2, 5]},
