@@ -40,7 +40,7 @@ inline Material emitting(Material material, double emission) {
 
 /// Adds a parallelogram of a material of its own, n × n cells.
 inline void add_plate(Scene& scene, const glm::dvec3& origin, const glm::dvec3& u,
-                      const glm::dvec3& v, const Material& material, std::uint32_t n = 1) {
+                      const glm::dvec3& v, const Material& material, std::uint16_t n = 1) {
     add_quad(scene, origin, u, v);
     Surface& surface = scene.surfaces.back();
     surface.material = static_cast<std::uint32_t>(scene.materials.size());

@@ -31,6 +31,8 @@ try solve scenes/cornell_box.gltf --patches 60 --bundles 32 --threads 2 --image 
     --size 32x32 --table "$work/a.csv" --bake "$work/a.glb" --save "$work/a.plx"
 try solve scenes/cornell_box.gltf --patches 60 --bundles 16 --threads 1 --first-shot rays
 try solve scenes/furnace.json --patches 60 --bundles 16 --method lines --threads 1
+try solve scenes/curved_room.json --patches 400 --bundles 8 --threads 2 --image "$work/c.png" \
+    --size 24x18 --samples 2
 try bake "$work/a.plx" scenes/cornell_box.gltf --lightmap "$work/m.exr"
 try factors scenes/cornell_box.gltf --bundles 16 -o "$work/f.mtx"
 exit $status
