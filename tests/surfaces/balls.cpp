@@ -7,8 +7,8 @@
 #include "lines/compare_pairs.h"
 #include "lines/facets.h"
 #include "lines/ray_scene.h"
-#include "lines/tile_bounds.h"
 #include "parallux/lines.h"
+#include "support/tile_line.h"
 #include "surfaces/curved_scene.h"
 
 // Whole spheres, whose lines the projector has in closed form: against rays, which solve for every
@@ -37,6 +37,7 @@ Scene crowded() {
     return curved_scene(crowd, two_sided);
 }
 
+// visit(the line as a ray from outside, its hits, how many).
 template <class Visit>
 void for_each_line(const Projector& projector, const Bundle& bundle, Visit&& visit) {
     auto workspace = projector.make_workspace();
@@ -44,11 +45,9 @@ void for_each_line(const Projector& projector, const Bundle& bundle, Visit&& vis
     IntersectionLists lists;
     projector.project(bundle, projection);
     for (std::size_t tile = 0; tile < projection.tiles(); ++tile) {
-        const TileBounds bounds = tile_bounds(projection, tile);
         projector.lists(projection, tile, *workspace, lists);
         for (std::size_t line = 0; line < lists.lines(); ++line)
-            visit(bounds.left + static_cast<std::int32_t>(line) % bounds.columns(),
-                  bounds.top + static_cast<std::int32_t>(line) / bounds.columns(),
+            visit(tile_line(projector, projection, bundle, tile, line).origin,
                   &lists.hits[lists.start[line]], lists.start[line + 1] - lists.start[line]);
     }
 }
@@ -66,12 +65,7 @@ TEST_CASE("spheres are met where rays meet them, in the same cells") {
     for (std::uint64_t k = 0; k < 8; ++k) {
         const Bundle bundle = make_bundle({3, 8, DirectionSet::random, projector.radius() / 60}, k);
         for_each_line(
-            projector, bundle,
-            [&](std::int32_t column, std::int32_t row, const Hit* hit, std::size_t count) {
-                const glm::dvec3 from = projector.centre() +
-                                        bundle.spacing * ((column - bundle.offset_x) * bundle.x +
-                                                          (row - bundle.offset_y) * bundle.y) -
-                                        2 * projector.radius() * bundle.direction;
+            projector, bundle, [&](const glm::dvec3& from, const Hit* hit, std::size_t count) {
                 rays.all(from, bundle.direction, HUGE_VAL, met);
                 if (met.size() != count) {
                     ++other_counts;
@@ -122,7 +116,7 @@ TEST_CASE("a sphere in facets is nearly the sphere itself") {
         lines[way].assign(patches.count(), 0);
         for (std::uint64_t k = 0; k < settings.count; ++k)
             for_each_line(way == 0 ? whole : cut, make_bundle(settings, k),
-                          [&](std::int32_t, std::int32_t, const Hit* hit, std::size_t count) {
+                          [&](const glm::dvec3&, const Hit* hit, std::size_t count) {
                               for (std::size_t h = 0; h < count; ++h)
                                   for (std::uint32_t patch : {hit[h].toward, hit[h].away})
                                       if (patch != none)
@@ -195,21 +189,16 @@ TEST_CASE("rays and lines meet a disk and the plane that it lies in, in one orde
     std::vector<SurfaceHit> met;
     for (std::uint64_t k = 0; k < 6; ++k) {
         const Bundle bundle = make_bundle({7, 6, DirectionSet::random, 0.05}, k);
-        for_each_line(
-            projector, bundle,
-            [&](std::int32_t column, std::int32_t row, const Hit* hit, std::size_t count) {
-                const glm::dvec3 from = projector.centre() +
-                                        bundle.spacing * ((column - bundle.offset_x) * bundle.x +
-                                                          (row - bundle.offset_y) * bundle.y) -
-                                        2 * projector.radius() * bundle.direction;
-                rays.all(from, bundle.direction, HUGE_VAL, met);
-                hits += count > 1;
-                bool same = met.size() == count;
-                for (std::size_t h = 0; same && h < count; ++h)
-                    same = met[h].surface == hit[h].surface;
-                const SurfaceHit first = rays.closest(from, bundle.direction, HUGE_VAL);
-                other += !same || (count > 0 && first.surface != hit[0].surface);
-            });
+        for_each_line(projector, bundle,
+                      [&](const glm::dvec3& from, const Hit* hit, std::size_t count) {
+                          rays.all(from, bundle.direction, HUGE_VAL, met);
+                          hits += count > 1;
+                          bool same = met.size() == count;
+                          for (std::size_t h = 0; same && h < count; ++h)
+                              same = met[h].surface == hit[h].surface;
+                          const SurfaceHit first = rays.closest(from, bundle.direction, HUGE_VAL);
+                          other += !same || (count > 0 && first.surface != hit[0].surface);
+                      });
     }
     MESSAGE(hits, " lines through two and more, ", other, " in another order");
     CHECK(hits > 2000);
