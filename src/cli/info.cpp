@@ -51,16 +51,18 @@ Json cameras(const Scene& scene) {
 Json describe(const Scene& scene) {
     static constexpr const char* skies[] = {"dark", "uniform", "gradient", "image", "shaped"};
     double area = 0;
-    std::uint64_t parallelograms = 0;
+    std::uint64_t parallelograms = 0, curved = 0;
     for (const Surface& surface : scene.surfaces) {
         area += surface_area(scene, surface);
-        parallelograms += surface.shape() == Shape::parallelogram;
+        curved += surface.is_curved();
+        parallelograms += !surface.is_curved() && surface.shape() == Shape::parallelogram;
     }
     const Bounds bounds = scene_bounds(scene);
     Json info;
     info["scene"] = scene.file.string();
     info["surfaces"] = scene.surfaces.size();
     info["parallelograms"] = parallelograms;
+    info["curved"] = curved;
     info["triangles"] = scene.triangles;
     info["zero_area"] = scene.zero_area;
     info["materials"] = scene.materials.size();
@@ -107,7 +109,10 @@ std::string for_people(const Json& info) {
     };
     const Json& emitters = info["emitters"];
     row("scene") << printable(info["scene"].get<std::string>()) << '\n';
-    row("surfaces") << info["surfaces"] << " (" << info["parallelograms"] << " parallelograms)\n";
+    row("surfaces") << info["surfaces"] << " (" << info["parallelograms"] << " parallelograms";
+    if (info["curved"] > 0)
+        text << ", " << info["curved"] << " curved";
+    text << ")\n";
     row("triangles") << info["triangles"] << " (" << info["zero_area"]
                      << " of zero area dropped)\n";
     row("materials") << info["materials"] << '\n';

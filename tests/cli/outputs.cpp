@@ -196,7 +196,7 @@ TEST_CASE("pictures in both formats, with a warning where the scene has no camer
 }
 
 // Planted: a key of the text form that --json forgets; π left out, or one side of a two-sided
-// light.
+// light. Seen: curved surfaces called parallelograms.
 TEST_CASE("info tells what the scene holds") {
     Workplace place;
     Outcome text = run(place, {"info", place.scene()});
@@ -215,6 +215,11 @@ TEST_CASE("info tells what the scene holds") {
     // E = π L from both sides of 1 m², because faces of an OBJ have two.
     CHECK(info["emitters"]["power"][0].get<double>() == doctest::Approx(2 * 3 * 3.14159265));
     CHECK(info["bounds"]["high"] == nlohmann::json({1.0, 1.0, 1.0}));
+    CHECK(info["curved"] == 0);
+    info = nlohmann::json::parse(
+        run(place, {"info", "--json", PARALLUX_SCENES "/curved_room.json"}).out);
+    CHECK(info["parallelograms"] == 5);
+    CHECK(info["curved"] == 9);
 }
 
 // Planted: a method that the parser maps to another, or whose settings the summary does not know.
